@@ -1,0 +1,3 @@
+//! Judging: sampled states, premises, verdicts.
+
+pub mod verdict;

@@ -1,0 +1,185 @@
+//! What the checker says of an equation: the data that every report is made from.
+
+use serde::Serialize;
+
+/// The verdict on a link or an equation, from best to worst.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Verdict {
+    /// Nothing to evaluate, and the reason why is given.
+    Statement,
+    /// Introduces a symbol: there is nothing yet that it could contradict.
+    Definition,
+    /// Both sides agree at every state.
+    Holds,
+    /// The residual falls with the small parameter at the order that was claimed.
+    Asymptotic,
+    /// Cannot be decided: a declaration, a premise or precision is missing.
+    Undecided,
+    /// The LaTeX could not be read.
+    Unreadable,
+    /// The sides differ, at the states shown.
+    Fails,
+}
+
+/// How sure a verdict is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum Strength {
+    /// All trials in the prime field vanish.
+    Exact,
+    /// Decided by values with bounds on their rounding errors.
+    Numeric,
+    /// An interval excludes zero.
+    Certified,
+    /// The residual falls with a measured order.
+    Asymptotic,
+    /// The shapes of the sides do not meet (a vector and a scalar are added): there is no state to evaluate at.
+    Shape,
+}
+
+/// A symbol's value in a counterexample.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Assignment {
+    /// The symbol's LaTeX.
+    pub symbol: String,
+    /// Its value, in decimal.
+    pub value: String,
+}
+
+/// A state at which the sides of a link differ.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Counterexample {
+    /// The symbols' values at the state.
+    pub state: Vec<Assignment>,
+    /// The left side's value.
+    pub lhs: String,
+    /// The right side's value.
+    pub rhs: String,
+    /// Which component or instance differs (`\xi component`, `i = 2`), where there are several.
+    pub component: Option<String>,
+}
+
+/// The measured order of an approximation.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Order {
+    /// The small parameter's LaTeX.
+    pub small: String,
+    /// The order that was claimed.
+    pub claimed: f64,
+    /// The measured order: the least slope over the states.
+    pub measured: f64,
+    /// The residual relative to the sides, for each halving of the small parameter, at the state with the least slope.
+    pub residuals: Vec<(f64, f64)>,
+}
+
+/// The judgement on one link of a chain.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct LinkJudgement {
+    /// The link's LaTeX: left side, relation, right side.
+    pub latex: String,
+    /// The verdict.
+    pub verdict: Verdict,
+    /// How sure it is.
+    pub strength: Option<Strength>,
+    /// Why, in a sentence, where the verdict needs one.
+    pub reason: Option<String>,
+    /// The largest residual relative to the largest term, over all states.
+    pub residual: Option<f64>,
+    /// The bits to which the sides agree at the worst state.
+    pub bits: Option<u32>,
+    /// The number of states at which it was evaluated.
+    pub states: usize,
+    /// The number of states at which the sides differ.
+    pub failing_states: usize,
+    /// A state at which they differ.
+    pub counterexample: Option<Counterexample>,
+    /// For an approximation.
+    pub order: Option<Order>,
+}
+
+/// The formula that should have been printed, with the judgement on it.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Correction {
+    /// The corrected formula.
+    pub latex: String,
+    /// Its verdict.
+    pub verdict: Verdict,
+    /// Its links.
+    pub links: Vec<LinkJudgement>,
+}
+
+/// The judgement on one equation.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Judgement {
+    /// Its label.
+    pub label: String,
+    /// Whether the label is printed in the notes; otherwise it was given by counting from the label before.
+    pub numbered: bool,
+    /// The heading it stands under.
+    pub section: String,
+    /// The line of the file at which it begins.
+    pub line: usize,
+    /// The LaTeX as printed, without its label.
+    pub latex: String,
+    /// `identity`, `definition`, `derived`, `constant`, `approximation`, `inequality`, `solution`, `statement` ...
+    pub kind: String,
+    /// The verdict: the worst link's.
+    pub verdict: Verdict,
+    /// The weakest link's strength.
+    pub strength: Option<Strength>,
+    /// The least number of bits over the links.
+    pub bits: Option<u32>,
+    /// The number of states.
+    pub states: usize,
+    /// Whether the formula was judged as printed, without a `reading`.
+    pub as_printed: bool,
+    /// The reading, where the printed LaTeX is damaged or in a private notation.
+    pub reading: Option<String>,
+    /// The labels of the equations it is judged on.
+    pub given: Vec<String>,
+    /// The premises that the prose states, in LaTeX.
+    pub assumptions: Vec<String>,
+    /// One line for the reader.
+    pub because: Option<String>,
+    /// Why the verdict is what it is, where no link says it: an error's text, what is lacking.
+    pub reason: Option<String>,
+    /// Its links.
+    pub links: Vec<LinkJudgement>,
+    /// The first counterexample of its links.
+    pub counterexample: Option<Counterexample>,
+    /// What it should read.
+    pub correction: Option<Correction>,
+    /// What the annotation expects, where it does (`fails`).
+    pub expect: Option<Verdict>,
+    /// Whether the verdict is as expected.
+    pub as_expected: bool,
+    /// The time it took, in microseconds.
+    pub micros: u64,
+}
+
+impl Judgement {
+    /// A failing equation whose correction holds.
+    pub fn is_erratum(&self) -> bool {
+        self.verdict == Verdict::Fails
+            && self
+                .correction
+                .as_ref()
+                .is_some_and(|c| matches!(c.verdict, Verdict::Holds | Verdict::Asymptotic | Verdict::Definition))
+    }
+}
+
+/// The judgements on one document.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct DocumentReport {
+    /// The file's name without extension.
+    pub name: String,
+    /// The file's path as it was given.
+    pub path: String,
+    /// The document's title.
+    pub title: String,
+    /// Problems of the document that belong to no equation (an unclosed display, a directive that does not parse).
+    pub problems: Vec<String>,
+    /// The judgements in order.
+    pub equations: Vec<Judgement>,
+}

@@ -1,0 +1,3 @@
+//! The LaTeX of one equation, read into a syntax tree in which every node knows its bytes.
+
+pub mod ast;

@@ -1,0 +1,19 @@
+//! Kenzan (検算): a doctest for the equations of lecture notes.
+//!
+//! The notes are the program: each displayed equation is read from its own LaTeX, understood with what an annotation
+//! says of its symbols, lowered to a graph of scalar operations, evaluated at random states in numbers of rising
+//! strength, and judged.
+//!
+//! The modules are floors; each uses only floors below it.
+//!
+//! | floor | modules |
+//! |---|---|
+//! | 6 | `cli` |
+//! | 5 | `verify` |
+//! | 4 | `report` |
+//! | 3 | `semantics`, `check`, `scene` |
+//! | 2 | `expr`, `integrator` |
+//! | 1 | `document`, `latex`, `number` |
+
+pub mod check;
+pub mod latex;
