@@ -1,3 +1,15 @@
 //! Judging: sampled states, premises, verdicts.
 
+mod book;
+mod claim;
+mod decide;
+mod judge;
+mod order;
+mod premises;
+mod random;
+mod sampling;
+mod system;
 pub mod verdict;
+
+pub use book::{Book, Entry, Formula, Unclear, Version};
+pub use judge::{Options, judge};

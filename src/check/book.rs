@@ -1,0 +1,263 @@
+//! A document ready to be judged: every formula parsed, every equation with the declarations in force where it stands.
+
+use std::collections::{HashMap, HashSet};
+use std::sync::Arc;
+
+use crate::document::{Document, Equation, EquationAnnotation, Item, Problem, Spanned};
+use crate::latex::{self, ParseError, ast::Node};
+use crate::semantics::{self, Scope, Statement};
+
+/// A formula in LaTeX with its tree.
+#[derive(Clone, Debug)]
+pub struct Formula {
+    /// The LaTeX that was parsed.
+    pub latex: String,
+    /// Its tree, or why it could not be read.
+    pub tree: Result<Node, ParseError>,
+}
+
+impl Formula {
+    /// Reads LaTeX.
+    pub fn new(latex: &str) -> Self {
+        Formula { latex: latex.to_owned(), tree: latex::parse(latex) }
+    }
+}
+
+/// Which version of an equation is meant.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Version {
+    /// As printed, or as its `reading` restates it.
+    Printed,
+    /// As corrected, where a correction is given.
+    Corrected,
+}
+
+/// An equation of a [`Book`].
+#[derive(Clone, Debug)]
+pub struct Entry {
+    /// The equation as it was read.
+    pub equation: Equation,
+    /// The declarations in force.
+    pub scope: Arc<Scope>,
+    /// The heading it stands under.
+    pub section: String,
+    /// The formula as printed, its label blanked out.
+    pub printed: Formula,
+    /// The `reading`.
+    pub reading: Option<Formula>,
+    /// The `correction`.
+    pub correction: Option<Formula>,
+    /// The equation before it, which it continues if it begins with a relation.
+    pub previous: Option<usize>,
+    /// The patterns of the declared symbols it mentions.
+    pub mentions: HashSet<String>,
+}
+
+impl Entry {
+    /// The formula of a version.
+    pub fn formula(&self, version: Version) -> &Formula {
+        match (version, &self.correction, &self.reading) {
+            (Version::Corrected, Some(correction), _) => correction,
+            (_, _, Some(reading)) => reading,
+            _ => &self.printed,
+        }
+    }
+
+    /// Its annotation.
+    pub fn annotation(&self) -> Option<&EquationAnnotation> {
+        self.equation.annotation.as_ref()
+    }
+
+    /// Its annotation's list under a key.
+    pub fn list(&self, key: fn(&EquationAnnotation) -> &Vec<Spanned<String>>) -> &[Spanned<String>] {
+        self.annotation().map_or(&[], |a| key(a))
+    }
+}
+
+/// A document ready to be judged.
+#[derive(Clone, Debug)]
+pub struct Book {
+    /// The equations in order.
+    pub entries: Vec<Entry>,
+    /// What is wrong with the declarations.
+    pub problems: Vec<Problem>,
+    labels: HashMap<String, usize>,
+}
+
+impl Book {
+    /// Parses every formula of a document and works out the scope of every equation.
+    pub fn new(document: &Document) -> Self {
+        let mut book = Book { entries: Vec::new(), problems: Vec::new(), labels: HashMap::new() };
+        let mut scopes = Scopes::default();
+        let mut section = String::new();
+        let mut previous = None;
+        for item in &document.items {
+            match item {
+                Item::Section(s) => {
+                    scopes.enter(s.level);
+                    section.clone_from(&s.title);
+                }
+                Item::Declarations(block) => {
+                    let problems = scopes.current().declare(block);
+                    book.problems.extend(problems);
+                }
+                Item::Equation(equation) => {
+                    let index = book.entries.len();
+                    book.add(equation, scopes.current(), &section, previous);
+                    if !equation.inline {
+                        previous = Some(index);
+                    }
+                }
+            }
+        }
+        book.check_references();
+        book
+    }
+
+    fn add(&mut self, equation: &Equation, scope: &Scope, section: &str, previous: Option<usize>) {
+        let annotation = equation.annotation.as_ref();
+        let scope = match annotation {
+            Some(a) => scope.with_local(&a.symbols, &mut self.problems),
+            None => scope.clone(),
+        };
+        let formula = |text: &Option<Spanned<String>>| text.as_ref().map(|t| Formula::new(&t.value));
+        let printed = Formula::new(&format!("{}{}", equation.prefix, equation.masked));
+        let reading = annotation.and_then(|a| formula(&a.reading));
+        let correction = annotation.and_then(|a| formula(&a.correction));
+        let mut mentions = HashSet::new();
+        for f in [Some(&printed), reading.as_ref(), correction.as_ref()].into_iter().flatten() {
+            if let Ok(tree) = &f.tree {
+                semantics::mentions(&scope, tree, &mut mentions);
+            }
+        }
+        self.labels.entry(equation.label.clone()).or_insert(self.entries.len());
+        self.entries.push(Entry {
+            equation: equation.clone(),
+            scope: Arc::new(scope),
+            section: section.to_owned(),
+            printed,
+            reading,
+            correction,
+            previous,
+            mentions,
+        });
+    }
+
+    /// The equation that a reference means, with the statement of it, counted from 1, where one is named: `75.2`.
+    pub fn find(&self, reference: &str) -> Option<(usize, Option<usize>)> {
+        if let Some(index) = self.labels.get(reference) {
+            return Some((*index, None));
+        }
+        let (label, part) = reference.rsplit_once('.')?;
+        Some((*self.labels.get(label)?, Some(part.parse().ok()?)))
+    }
+
+    /// References to equations that do not exist, and `given`s that go in a circle.
+    fn check_references(&mut self) {
+        let mut problems = Vec::new();
+        for (index, entry) in self.entries.iter().enumerate() {
+            let references = entry.list(|a| &a.given).iter().chain(entry.list(|a| &a.solves));
+            for reference in references {
+                if self.find(&reference.value).is_none() {
+                    let message = format!("there is no equation {}", reference.value);
+                    problems.push(
+                        Problem::error("kenzan::reference", message, reference.span.clone())
+                            .help("name a printed label, or for a display without a number the label before it with +1, +2 ..."),
+                    );
+                }
+            }
+            if let Some(circle) = self.circle(index)
+                && let Some(first) = entry.list(|a| &a.given).first()
+            {
+                let message = format!("the premises go in a circle: {}", circle.join(" -> "));
+                problems.push(
+                    Problem::error("kenzan::circle", message, first.span.clone())
+                        .help("an equation cannot be derived from one that is derived from it"),
+                );
+            }
+        }
+        self.problems.extend(problems);
+    }
+
+    /// The circle of `given`s through an equation, by labels, if there is one.
+    pub fn circle(&self, start: usize) -> Option<Vec<String>> {
+        let label = |i: usize| self.entries[i].equation.label.clone();
+        let mut seen = HashSet::new();
+        let mut stack = vec![vec![start]];
+        while let Some(path) = stack.pop() {
+            let at = path[path.len() - 1];
+            for given in self.entries[at].list(|a| &a.given) {
+                let Some((next, _)) = self.find(&given.value) else { continue };
+                if next == start {
+                    return Some(path.iter().chain([&start]).map(|i| label(*i)).collect());
+                }
+                if seen.insert(next) {
+                    let mut longer = path.clone();
+                    longer.push(next);
+                    stack.push(longer);
+                }
+            }
+        }
+        None
+    }
+
+    /// An equation taken apart. One that begins with a relation continues the equation before, as corrected.
+    pub fn statement(&self, index: usize, version: Version) -> Result<Statement, Unclear> {
+        // The equations that are continued, the last first.
+        let mut chain = vec![(index, version)];
+        while let Some(&(at, version)) = chain.last() {
+            let tree = self.entries[at].formula(version).tree.as_ref();
+            match self.entries[at].previous {
+                Some(previous) if tree.is_ok_and(semantics::begins_with_relation) => chain.push((previous, Version::Corrected)),
+                _ => break,
+            }
+        }
+        let mut statement: Option<Statement> = None;
+        for (at, version) in chain.into_iter().rev() {
+            let tree = self.entries[at].formula(version).tree.as_ref().map_err(|e| Unclear::Latex(e.clone()))?;
+            statement = Some(semantics::statement(tree, statement.as_ref()).map_err(Unclear::Meaning)?);
+        }
+        statement.ok_or_else(|| Unclear::Meaning(semantics::Error::unsupported("nothing is printed here", &(0..0))))
+    }
+
+    /// Whether a symbol is mentioned by an equation before this one.
+    pub fn mentioned_before(&self, index: usize, pattern: &str) -> bool {
+        self.entries[..index].iter().any(|e| e.mentions.contains(pattern))
+    }
+}
+
+/// Why an equation could not be taken apart.
+#[derive(Clone, Debug)]
+pub enum Unclear {
+    /// Its LaTeX is broken.
+    Latex(ParseError),
+    /// Its meaning is not clear.
+    Meaning(semantics::Error),
+}
+
+/// The scopes of the sections that are open, the innermost last.
+struct Scopes {
+    open: Vec<(u8, Scope)>,
+}
+
+impl Default for Scopes {
+    fn default() -> Self {
+        Scopes { open: vec![(0, Scope::default())] }
+    }
+}
+
+impl Scopes {
+    /// Enters a section: those of the same or a deeper level are closed.
+    fn enter(&mut self, level: u8) {
+        while self.open.len() > 1 && self.open.last().is_some_and(|(l, _)| *l >= level) {
+            self.open.pop();
+        }
+        let scope = self.current().clone();
+        self.open.push((level, scope));
+    }
+
+    fn current(&mut self) -> &mut Scope {
+        let last = self.open.len() - 1;
+        &mut self.open[last].1
+    }
+}

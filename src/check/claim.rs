@@ -1,0 +1,336 @@
+//! One link of an equation, ready to be evaluated: its residuals, the premises, and how they were understood.
+
+use std::collections::BTreeSet;
+
+use crate::document::Spanned;
+use crate::expr::{Expr, Node, SymId};
+use crate::latex::ast::{self, Rel};
+use crate::semantics::{self, Clause, Elaborator, Error, Scope, Side, TypedLink, Value, World};
+
+use super::book::{Book, Formula, Unclear, Version};
+use super::premises::Premises;
+
+/// A pair of scalars that a link relates.
+#[derive(Clone, Debug)]
+pub struct Pair {
+    /// Which instance and component, where there are several.
+    pub name: Option<String>,
+    /// The left side.
+    pub lhs: Expr,
+    /// The right side.
+    pub rhs: Expr,
+    /// What must vanish (or, for an inequality, have a sign): left minus right.
+    pub residual: Expr,
+}
+
+/// The pairs of one branch of a link.
+pub type Branch = Vec<Pair>;
+
+/// A link ready to be evaluated.
+pub struct Claim {
+    /// The graph and its symbols.
+    pub world: World,
+    /// The relation.
+    pub rel: Rel,
+    /// The branches of ±: one, or the upper and the lower.
+    pub branches: Vec<Branch>,
+    /// What the state must satisfy.
+    pub premises: Premises,
+    /// The symbols to solve for first.
+    pub solve: Vec<SymId>,
+    /// The small parameter and whether it is the reciprocal of the symbol.
+    pub small: Option<(SymId, bool)>,
+    /// How the left side was read.
+    pub lhs_text: String,
+    /// How the right side was read.
+    pub rhs_text: String,
+    /// Whether a side is the word const.
+    pub constant: bool,
+    /// The condition that an inequality is to be equivalent to.
+    pub condition: Option<(Rel, Expr, Expr)>,
+}
+
+/// Why a claim could not be made.
+#[derive(Clone, Debug)]
+pub enum Obstacle {
+    /// The link itself.
+    Link(Error),
+    /// A premise: its name and the error's text.
+    Premise(String, String),
+}
+
+/// What a claim is made from.
+pub struct Source<'b> {
+    /// The document.
+    pub book: &'b Book,
+    /// The equation that is judged.
+    pub index: usize,
+    /// The version of it.
+    pub version: Version,
+}
+
+impl Source<'_> {
+    fn scope(&self) -> &Scope {
+        &self.book.entries[self.index].scope
+    }
+
+    /// Builds the claim of a clause of the equation. `known` are clauses of the same equation that are definitions.
+    pub fn claim(&self, clause: &Clause, scope: &Scope, known: &[Clause]) -> Result<Claim, Obstacle> {
+        let mut world = World::new();
+        // `t` is the time of all symbols that depend on it.
+        let typed = self.branches(&mut world, scope, clause).map_err(Obstacle::Link)?;
+        let constant = clause.rhs == Side::Constant;
+        let mut branches: Vec<Branch> = typed.iter().map(|link| pairs(&mut world, link, constant)).collect();
+        let mut given = self.given(&mut world)?;
+        for clause in known {
+            self.add_clause(&mut world, self.scope(), clause, &mut given).map_err(Obstacle::Link)?;
+        }
+        let small = self.small(&mut world)?;
+        let condition = self.condition(&mut world)?;
+        let solve = self.solve(&mut world)?;
+        self.ranges(&mut world)?;
+
+        let kept: BTreeSet<SymId> = small.iter().map(|(s, _)| *s).collect();
+        let mut premises = Premises::new(&mut world.graph, &given, &kept);
+        let mut targets = Vec::new();
+        for pair in branches.iter_mut().flatten() {
+            for e in [&mut pair.lhs, &mut pair.rhs, &mut pair.residual] {
+                *e = premises.resolve(&mut world.graph, *e);
+            }
+            targets.push(pair.residual);
+        }
+        targets.extend(small.iter().map(|(s, _)| world.graph.sym(*s)).collect::<Vec<_>>());
+        premises.keep_related(&world.graph, &targets);
+        premises.close_in_time(&mut world.graph, &targets);
+        let (lhs_text, rhs_text) = typed.first().map(|l| (l.lhs_text.clone(), l.rhs_text.clone())).unwrap_or_default();
+        Ok(Claim { world, rel: clause.rel, branches, premises, solve, small, lhs_text, rhs_text, constant, condition })
+    }
+
+    fn branches(&self, world: &mut World, scope: &Scope, clause: &Clause) -> Result<Vec<TypedLink>, Error> {
+        let both = semantics::has_branches(&clause.lhs)
+            || matches!(&clause.rhs, Side::Node(n) if semantics::has_branches(n));
+        let mut links = vec![semantics::understand(world, scope, clause, true)?];
+        if both {
+            links.push(semantics::understand(world, scope, clause, false)?);
+        }
+        Ok(links)
+    }
+
+    /// The pairs of equal scalars that the premises state.
+    fn given(&self, world: &mut World) -> Result<Vec<(Expr, Expr)>, Obstacle> {
+        let entry = &self.book.entries[self.index];
+        let mut pairs = Vec::new();
+        for text in entry.list(|a| &a.premises) {
+            self.add_text(world, text, &mut pairs)?;
+        }
+        for reference in entry.list(|a| &a.given) {
+            self.add_equation(world, &reference.value, &mut pairs)?;
+        }
+        for text in &entry.scope.assume {
+            self.add_text(world, text, &mut pairs)?;
+        }
+        Ok(pairs)
+    }
+
+    fn add_text(&self, world: &mut World, text: &Spanned<String>, pairs: &mut Vec<(Expr, Expr)>) -> Result<(), Obstacle> {
+        let obstacle = |message: String| Obstacle::Premise(text.value.clone(), message);
+        let tree = Formula::new(&text.value).tree.map_err(|e| obstacle(e.message))?;
+        let statement = semantics::statement(&tree, None).map_err(|e| obstacle(e.message))?;
+        for clause in &statement.clauses {
+            self.add_clause(world, self.scope(), clause, pairs).map_err(|e| obstacle(with_help(&e)))?;
+        }
+        Ok(())
+    }
+
+    /// Adds what an equation states, as corrected where it has a correction.
+    fn add_equation(&self, world: &mut World, reference: &str, pairs: &mut Vec<(Expr, Expr)>) -> Result<(), Obstacle> {
+        let obstacle = |message: String| Obstacle::Premise(format!("({reference})"), message);
+        let (index, part) = self.book.find(reference).ok_or_else(|| obstacle("there is no such equation".into()))?;
+        let statement = self.book.statement(index, Version::Corrected).map_err(|u| obstacle(unclear_text(&u)))?;
+        let scope = &self.book.entries[index].scope;
+        // What continues an earlier chain states its last side to equal the chain's first.
+        let head = statement.clauses.first().filter(|c| c.continued).and(statement.head.clone());
+        for clause in statement.clauses.iter().filter(|c| part.is_none_or(|p| c.part == p)) {
+            let mut clause = clause.clone();
+            if let (true, Some(head)) = (clause.continued, &head) {
+                clause.lhs = head.clone();
+            }
+            self.add_clause(world, scope, &clause, pairs).map_err(|e| obstacle(with_help(&e)))?;
+        }
+        Ok(())
+    }
+
+    /// Adds what a clause states, where it is an equation.
+    fn add_clause(&self, world: &mut World, scope: &Scope, clause: &Clause, pairs: &mut Vec<(Expr, Expr)>) -> Result<(), Error> {
+        if !matches!(clause.rel, Rel::Eq | Rel::Equiv | Rel::Implies) {
+            return Ok(());
+        }
+        let link = semantics::understand(world, scope, clause, true)?;
+        if clause.rhs == Side::Constant {
+            let zero = world.graph.int(0);
+            let t = world.graph.find("t");
+            for instance in &link.instances {
+                for e in instance.lhs.components() {
+                    let rate = world.graph.time_derivative(e, t);
+                    pairs.push((rate, zero));
+                }
+            }
+        } else {
+            pairs.extend(link.pairs().into_iter().map(|(_, a, b)| (a, b)));
+        }
+        Ok(())
+    }
+
+    /// The clauses of the equations that this one is said to solve.
+    pub fn solved(&self) -> Result<Vec<(Clause, &Scope)>, Obstacle> {
+        let mut clauses = Vec::new();
+        for reference in self.book.entries[self.index].list(|a| &a.solves) {
+            let obstacle = |message: String| Obstacle::Premise(format!("({})", reference.value), message);
+            let (index, part) = self.book.find(&reference.value).ok_or_else(|| obstacle("there is no such equation".into()))?;
+            let statement = self.book.statement(index, Version::Corrected).map_err(|u| obstacle(unclear_text(&u)))?;
+            let scope = self.book.entries[index].scope.as_ref();
+            let head = statement.head.clone();
+            for mut clause in statement.clauses {
+                if part.is_some_and(|p| clause.part != p) {
+                    continue;
+                }
+                if let (true, Some(head)) = (clause.continued, &head) {
+                    clause.lhs = head.clone();
+                }
+                clauses.push((clause, scope));
+            }
+        }
+        Ok(clauses)
+    }
+
+    /// A symbol named in an annotation.
+    fn symbol(&self, world: &mut World, text: &Spanned<String>) -> Result<Value, Obstacle> {
+        self.expression(world, &text.value)
+    }
+
+    fn expression(&self, world: &mut World, latex: &str) -> Result<Value, Obstacle> {
+        let obstacle = |message: String| Obstacle::Premise(latex.to_owned(), message);
+        let tree = Formula::new(latex).tree.map_err(|e| obstacle(e.message))?;
+        let mut elaborator = Elaborator::new(world, self.scope(), Vec::new(), true);
+        elaborator.value(&tree).map(|t| t.value).map_err(|e| obstacle(with_help(&e)))
+    }
+
+    fn solve(&self, world: &mut World) -> Result<Vec<SymId>, Obstacle> {
+        let mut symbols = Vec::new();
+        for text in self.book.entries[self.index].list(|a| &a.solve) {
+            for e in self.symbol(world, text)?.components() {
+                if let Node::Symbol(s) = *world.graph.node(e) {
+                    symbols.push(s);
+                }
+            }
+        }
+        Ok(symbols)
+    }
+
+    /// The small parameter: a symbol, or the reciprocal of one that grows.
+    fn small(&self, world: &mut World) -> Result<Option<(SymId, bool)>, Obstacle> {
+        let Some(text) = self.book.entries[self.index].annotation().and_then(|a| a.small.as_ref()) else { return Ok(None) };
+        let value = self.symbol(world, text)?;
+        let symbol = |e: Expr| match *world.graph.node(e) {
+            Node::Symbol(s) => Some((s, false)),
+            Node::Div(one, e) if world.graph.as_rational(one) == Some((1, 1)) => match *world.graph.node(e) {
+                Node::Symbol(s) => Some((s, true)),
+                _ => None,
+            },
+            _ => None,
+        };
+        let found = match value {
+            Value::Scalar(e) => symbol(e),
+            _ => None,
+        };
+        found.map(Some).ok_or_else(|| {
+            Obstacle::Premise(text.value.clone(), "a small parameter must be a symbol or 1 divided by one".into())
+        })
+    }
+
+    fn condition(&self, world: &mut World) -> Result<Option<(Rel, Expr, Expr)>, Obstacle> {
+        let Some(text) = self.book.entries[self.index].annotation().and_then(|a| a.iff.as_ref()) else { return Ok(None) };
+        let obstacle = |message: String| Obstacle::Premise(text.value.clone(), message);
+        let tree = Formula::new(&text.value).tree.map_err(|e| obstacle(e.message))?;
+        let statement = semantics::statement(&tree, None).map_err(|e| obstacle(e.message))?;
+        let [clause] = statement.clauses.as_slice() else {
+            return Err(obstacle("a condition is a single relation".into()));
+        };
+        let link = semantics::understand(world, self.scope(), clause, true).map_err(|e| obstacle(with_help(&e)))?;
+        match link.pairs().as_slice() {
+            [(_, a, b)] => Ok(Some((clause.rel, *a, *b))),
+            _ => Err(obstacle("a condition relates two scalars".into())),
+        }
+    }
+
+    /// The ranges that the equation's annotation sets.
+    fn ranges(&self, world: &mut World) -> Result<(), Obstacle> {
+        let Some(annotation) = self.book.entries[self.index].annotation() else { return Ok(()) };
+        for (name, range) in &annotation.range {
+            for e in self.symbol(world, name)?.components() {
+                if let Node::Symbol(s) = *world.graph.node(e) {
+                    world.set_range(s, *range);
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// The image of the left side under the map that an arrow stands for, as the right side to be.
+    pub fn mapped(&self, clause: &Clause) -> Option<Result<Clause, Obstacle>> {
+        let text = self.book.entries[self.index].annotation().and_then(|a| a.maps.as_ref())?;
+        let obstacle = |message: &str| Obstacle::Premise(text.value.clone(), message.to_owned());
+        Some(match Formula::new(&text.value).tree {
+            Err(e) => Err(obstacle(&e.message)),
+            Ok(tree) => match &tree.kind {
+                ast::Kind::Chain { first: Some(variable), links } if links.len() == 1 && links[0].rel == Rel::To => {
+                    let image = replaced(&links[0].rhs, variable, &clause.lhs);
+                    Ok(Clause { lhs: image, rel: Rel::Eq, ..clause.clone() })
+                }
+                _ => Err(obstacle("a map is written as X \\mapsto ...")),
+            },
+        })
+    }
+}
+
+fn with_help(error: &Error) -> String {
+    match &error.help {
+        Some(help) => format!("{}: {help}", error.message),
+        None => error.message.clone(),
+    }
+}
+
+/// What is unclear, in words.
+pub fn unclear_text(unclear: &Unclear) -> String {
+    match unclear {
+        Unclear::Latex(e) => e.message.clone(),
+        Unclear::Meaning(e) => with_help(e),
+    }
+}
+
+fn pairs(world: &mut World, link: &TypedLink, constant: bool) -> Branch {
+    let graph = &mut world.graph;
+    if constant {
+        let t = graph.find("t");
+        let zero = graph.int(0);
+        let sides = link.instances.iter().flat_map(|i| i.lhs.components());
+        return sides
+            .map(|e| {
+                let residual = graph.time_derivative(e, t);
+                Pair { name: None, lhs: residual, rhs: zero, residual }
+            })
+            .collect();
+    }
+    let sides = link.pairs().into_iter();
+    sides.map(|(name, lhs, rhs)| Pair { name, lhs, rhs, residual: graph.sub(lhs, rhs) }).collect()
+}
+
+/// A tree in which every occurrence of a variable is replaced by something in brackets.
+fn replaced(node: &ast::Node, variable: &ast::Node, by: &ast::Node) -> ast::Node {
+    if node.kind == variable.kind || semantics::spelling(node) == semantics::spelling(variable) && !semantics::spelling(node).is_empty() {
+        let body = Box::new(by.clone());
+        let kind = ast::Kind::Group { open: ast::Delim::Paren, close: ast::Delim::Paren, body };
+        return ast::Node::new(kind, node.span.clone());
+    }
+    node.map_children(&mut |child| replaced(child, variable, by))
+}

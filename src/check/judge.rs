@@ -1,0 +1,342 @@
+//! The judgement on an equation: each link of its chain is claimed, evaluated and decided; the worst decides.
+
+use std::time::Instant;
+
+use crate::latex::ast::Rel;
+use crate::semantics::{Clause, ErrorKind, Scope, Side};
+
+use super::book::{Book, Formula, Unclear, Version};
+use super::claim::{Claim, Obstacle, Source};
+use super::decide;
+use super::order;
+use super::verdict::{Correction, Judgement, LinkJudgement, Strength, Verdict};
+
+/// What the checker is asked for.
+#[derive(Clone, Debug)]
+pub struct Options {
+    /// The seed of the states.
+    pub seed: u64,
+    /// The number of states for each link.
+    pub states: usize,
+    /// The precision in bits to decide in, where one is asked for (feature `rug`); otherwise double-double.
+    pub precision: Option<u32>,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Options { seed: 1, states: 64, precision: None }
+    }
+}
+
+/// Judges an equation of a book.
+pub fn judge(book: &Book, index: usize, options: &Options) -> Judgement {
+    let begin = Instant::now();
+    let entry = &book.entries[index];
+    let equation = &entry.equation;
+    let annotation = entry.annotation();
+    let mut judgement = Judgement {
+        label: equation.label.clone(),
+        numbered: equation.numbered,
+        section: entry.section.clone(),
+        line: equation.line,
+        latex: format!("{}{}", equation.prefix, equation.masked.trim()),
+        kind: kind(book, index),
+        verdict: Verdict::Undecided,
+        strength: None,
+        bits: None,
+        states: 0,
+        as_printed: entry.reading.is_none(),
+        reading: entry.reading.as_ref().map(|f| f.latex.clone()),
+        given: entry.list(|a| &a.given).iter().chain(entry.list(|a| &a.solves)).map(|g| g.value.clone()).collect(),
+        assumptions: entry.list(|a| &a.premises).iter().map(|p| p.value.clone()).collect(),
+        because: annotation.and_then(|a| a.because.clone()),
+        reason: None,
+        links: Vec::new(),
+        counterexample: None,
+        correction: None,
+        expect: annotation.and_then(|a| a.expect.as_ref()).and_then(|e| expected(&e.value)),
+        as_expected: false,
+        micros: 0,
+    };
+    let outcome = judge_version(book, index, Version::Printed, options);
+    judgement.verdict = outcome.verdict;
+    judgement.reason = outcome.reason;
+    judgement.links = outcome.links;
+    judgement.summarise();
+    if let Some(correction) = &entry.correction {
+        let outcome = judge_version(book, index, Version::Corrected, options);
+        judgement.correction =
+            Some(Correction { latex: correction.latex.clone(), verdict: outcome.verdict, links: outcome.links });
+    }
+    judgement.as_expected = as_expected(&judgement);
+    judgement.micros = u64::try_from(begin.elapsed().as_micros()).unwrap_or(u64::MAX);
+    judgement
+}
+
+/// A printed misprint that is expected, and mended by a correction that holds, is no surprise; anything else that does
+/// not hold is.
+fn as_expected(judgement: &Judgement) -> bool {
+    let correction_holds = judgement.correction.is_none() || judgement.is_erratum();
+    match judgement.expect {
+        Some(expected) => judgement.verdict == expected && correction_holds,
+        None => !matches!(judgement.verdict, Verdict::Fails | Verdict::Undecided | Verdict::Unreadable),
+    }
+}
+
+fn expected(text: &str) -> Option<Verdict> {
+    Some(match text {
+        "holds" => Verdict::Holds,
+        "asymptotic" => Verdict::Asymptotic,
+        "definition" => Verdict::Definition,
+        "fails" => Verdict::Fails,
+        "undecided" => Verdict::Undecided,
+        "statement" => Verdict::Statement,
+        "unreadable" => Verdict::Unreadable,
+        _ => return None,
+    })
+}
+
+/// The verdict on one version of an equation.
+struct Outcome {
+    verdict: Verdict,
+    reason: Option<String>,
+    links: Vec<LinkJudgement>,
+}
+
+impl Outcome {
+    fn without_links(verdict: Verdict, reason: String) -> Self {
+        Outcome { verdict, reason: Some(reason), links: Vec::new() }
+    }
+}
+
+fn judge_version(book: &Book, index: usize, version: Version, options: &Options) -> Outcome {
+    let entry = &book.entries[index];
+    if let Some(circle) = book.circle(index) {
+        return Outcome::without_links(Verdict::Undecided, format!("the premises go in a circle: {}", circle.join(" → ")));
+    }
+    let statement = match book.statement(index, version) {
+        Ok(statement) => statement,
+        Err(Unclear::Latex(e)) => {
+            return Outcome::without_links(Verdict::Unreadable, place(&entry.formula(version).latex, &e.message, &e.span, e.help.as_deref()));
+        }
+        Err(Unclear::Meaning(e)) => return Outcome::without_links(Verdict::Undecided, e.message),
+    };
+    if statement.clauses.is_empty() {
+        return nothing_to_evaluate(book, index);
+    }
+    let source = Source { book, index, version };
+    if !entry.list(|a| &a.solves).is_empty() {
+        return judge_solution(&source, &statement.clauses, options);
+    }
+    let mut known: Vec<Clause> = Vec::new();
+    let mut links = Vec::new();
+    for clause in &statement.clauses {
+        if defines(book, index, clause) {
+            links.push(definition(clause));
+            known.push(clause.clone());
+        } else {
+            links.push(judge_link(&source, clause, &entry.scope, &known, &entry.formula(version).latex, options));
+        }
+    }
+    Outcome { verdict: worst(&links), reason: None, links }
+}
+
+/// An equation without a relation: a statement, if the annotation says so and why.
+fn nothing_to_evaluate(book: &Book, index: usize) -> Outcome {
+    let annotation = book.entries[index].annotation();
+    let is_statement = annotation.and_then(|a| a.kind.as_ref()).is_some_and(|k| k.value == "statement");
+    match annotation.and_then(|a| a.because.clone()) {
+        Some(because) if is_statement => Outcome::without_links(Verdict::Statement, because),
+        _ => Outcome::without_links(
+            Verdict::Undecided,
+            "there is no relation to evaluate; if that is right, say kind = \"statement\" and because = \"...\"".into(),
+        ),
+    }
+}
+
+/// A solution is judged by putting it into what it is said to solve.
+fn judge_solution(source: &Source, clauses: &[Clause], options: &Options) -> Outcome {
+    let solved = match source.solved() {
+        Ok(solved) => solved,
+        Err(obstacle) => return Outcome::without_links(Verdict::Undecided, obstacle_text(&obstacle)),
+    };
+    let latex = &source.book.entries[source.index].formula(source.version).latex;
+    let links: Vec<LinkJudgement> = solved
+        .iter()
+        .map(|(clause, scope)| {
+            let mut link = judge_link(source, clause, scope, clauses, latex, options);
+            link.reason = link.reason.or(Some("with the solution put in".into()));
+            link
+        })
+        .collect();
+    Outcome { verdict: worst(&links), reason: None, links }
+}
+
+fn worst(links: &[LinkJudgement]) -> Verdict {
+    links.iter().map(|l| l.verdict).max().unwrap_or(Verdict::Undecided)
+}
+
+/// Whether a clause introduces a symbol: one side is a declared symbol that neither an earlier equation nor a premise
+/// mentions.
+fn defines(book: &Book, index: usize, clause: &Clause) -> bool {
+    if !matches!(clause.rel, Rel::Eq | Rel::Equiv) {
+        return false;
+    }
+    let entry = &book.entries[index];
+    let premises = entry.list(|a| &a.premises).iter().chain(&entry.scope.assume);
+    let premises: Vec<Formula> = premises.map(|p| Formula::new(&p.value)).collect();
+    let fresh = |node: &crate::latex::ast::Node| {
+        let pattern = crate::semantics::pattern_of(&entry.scope, node);
+        entry.scope.get(&pattern).is_some_and(crate::semantics::Entry::is_free)
+            && !book.mentioned_before(index, &pattern)
+            && !premises.iter().any(|f| {
+                let mut found = Default::default();
+                if let Ok(tree) = &f.tree {
+                    crate::semantics::mentions(&entry.scope, tree, &mut found);
+                }
+                found.contains(&pattern)
+            })
+    };
+    let both_sides = match &clause.rhs {
+        Side::Node(rhs) => fresh(&clause.lhs) || fresh(rhs),
+        Side::Constant => false,
+    };
+    both_sides && !clause.continued
+}
+
+fn definition(clause: &Clause) -> LinkJudgement {
+    LinkJudgement { verdict: Verdict::Definition, ..blank(clause) }
+}
+
+/// A judgement on a clause that says nothing yet.
+fn blank(clause: &Clause) -> LinkJudgement {
+    LinkJudgement {
+        latex: clause.latex(),
+        verdict: Verdict::Undecided,
+        strength: None,
+        reason: None,
+        residual: None,
+        bits: None,
+        states: 0,
+        failing_states: 0,
+        counterexample: None,
+        order: None,
+    }
+}
+
+fn judge_link(
+    source: &Source,
+    clause: &Clause,
+    scope: &Scope,
+    known: &[Clause],
+    latex: &str,
+    options: &Options,
+) -> LinkJudgement {
+    let mut judgement = blank(clause);
+    let mapped = match clause.rel {
+        Rel::To => match source.mapped(clause) {
+            None => {
+                judgement.reason = Some("an arrow needs to be told what map it stands for: maps = 'X \\mapsto ...'".into());
+                return judgement;
+            }
+            Some(Err(obstacle)) => return obstructed(judgement, &obstacle, latex),
+            Some(Ok(clause)) => clause,
+        },
+        Rel::Eq | Rel::Equiv | Rel::Implies | Rel::Lt | Rel::Le | Rel::Gt | Rel::Ge => clause.clone(),
+        _ => {
+            judgement.reason = Some("this relation is not evaluated yet".into());
+            return judgement;
+        }
+    };
+    match source.claim(&mapped, scope, known) {
+        Err(obstacle) => obstructed(judgement, &obstacle, latex),
+        Ok(claim) => evaluate(judgement, claim, source, options),
+    }
+}
+
+fn evaluate(judgement: LinkJudgement, claim: Claim, source: &Source, options: &Options) -> LinkJudgement {
+    let name = format!("{}/{}", source.book.entries[source.index].equation.label, judgement.latex);
+    match (claim.small, claim.rel) {
+        (Some(_), Rel::Eq | Rel::Equiv) => {
+            let claimed = source.book.entries[source.index].annotation().and_then(|a| a.order);
+            order::judge(judgement, claim, claimed, &name, options)
+        }
+        (_, Rel::Lt | Rel::Le | Rel::Gt | Rel::Ge) => decide::inequality(judgement, claim, &name, options),
+        _ => decide::equality(judgement, claim, &name, options),
+    }
+}
+
+/// A link that could not be claimed: shapes that do not meet are the author's and final; the rest is lacking.
+fn obstructed(mut judgement: LinkJudgement, obstacle: &Obstacle, latex: &str) -> LinkJudgement {
+    judgement.reason = Some(match obstacle {
+        Obstacle::Link(error) => place(latex, &error.message, &error.span, error.help.as_deref()),
+        Obstacle::Premise(..) => obstacle_text(obstacle),
+    });
+    if let Obstacle::Link(error) = obstacle
+        && error.kind == ErrorKind::Shape
+    {
+        judgement.verdict = Verdict::Fails;
+        judgement.strength = Some(Strength::Shape);
+    }
+    judgement
+}
+
+fn obstacle_text(obstacle: &Obstacle) -> String {
+    match obstacle {
+        Obstacle::Link(error) => error.message.clone(),
+        Obstacle::Premise(name, message) => format!("the premise {name} cannot be used: {message}"),
+    }
+}
+
+/// A message with the piece of LaTeX it is about.
+fn place(latex: &str, message: &str, span: &std::ops::Range<usize>, help: Option<&str>) -> String {
+    let piece = latex.get(span.clone()).unwrap_or_default().trim();
+    let mut text = message.to_owned();
+    if !piece.is_empty() && !message.contains(piece) {
+        text.push_str(&format!(", at `{piece}`"));
+    }
+    if let Some(help) = help {
+        text.push_str(&format!(" ({help})"));
+    }
+    text
+}
+
+/// The kind of an equation: as annotated, or inferred.
+fn kind(book: &Book, index: usize) -> String {
+    let entry = &book.entries[index];
+    let Some(a) = entry.annotation() else { return "identity".into() };
+    if let Some(kind) = &a.kind {
+        return kind.value.clone();
+    }
+    let kind = if a.small.is_some() {
+        "approximation"
+    } else if !a.solves.is_empty() {
+        "solution"
+    } else if a.iff.is_some() {
+        "inequality"
+    } else if a.maps.is_some() {
+        "transformation"
+    } else if !a.given.is_empty() || !a.premises.is_empty() {
+        "derived"
+    } else {
+        "identity"
+    };
+    kind.into()
+}
+
+impl Judgement {
+    /// Draws the equation's figures from its links.
+    fn summarise(&mut self) {
+        self.bits = self.links.iter().filter_map(|l| l.bits).min();
+        self.states = self.links.iter().map(|l| l.states).max().unwrap_or(0);
+        self.counterexample = self.links.iter().find_map(|l| l.counterexample.clone());
+        let decisive = self.links.iter().filter(|l| l.verdict == self.verdict);
+        self.strength = decisive.filter_map(|l| l.strength).next();
+        if self.links.iter().all(|l| l.verdict == Verdict::Definition) && !self.links.is_empty() {
+            self.kind = "definition".into();
+        }
+        if self.reason.is_none() {
+            self.reason = self.links.iter().find(|l| l.verdict == self.verdict).and_then(|l| l.reason.clone());
+        }
+    }
+}

@@ -1,0 +1,152 @@
+//! Premises turned into what a state must satisfy: symbols that are defined are replaced, the rest becomes residuals
+//! that must vanish, together with their time derivatives where these say something of the symbols at hand.
+
+use std::collections::{BTreeMap, BTreeSet, HashMap, HashSet};
+
+use crate::expr::{Expr, Graph, Node, SymId};
+
+/// The most residuals that are kept; beyond it no further time derivatives are taken.
+const MOST_RESIDUALS: usize = 300;
+
+/// Definitions and residuals.
+#[derive(Clone, Debug, Default)]
+pub struct Premises {
+    /// A symbol (or derivative) and what it is: holds for its further derivatives, too.
+    definitions: BTreeMap<SymId, Expr>,
+    /// Expressions that vanish.
+    pub residuals: Vec<Expr>,
+}
+
+impl Premises {
+    /// Sorts pairs of equal scalars into definitions and residuals. Symbols in `kept` are never defined.
+    pub fn new(graph: &mut Graph, pairs: &[(Expr, Expr)], kept: &BTreeSet<SymId>) -> Self {
+        let mut premises = Premises::default();
+        let mut rest = Vec::new();
+        for &(a, b) in pairs {
+            if a == b {
+                continue;
+            }
+            if !premises.define(graph, a, b, kept) && !premises.define(graph, b, a, kept) {
+                rest.push((a, b));
+            }
+        }
+        for (a, b) in rest {
+            let residual = graph.sub(a, b);
+            let residual = premises.resolve(graph, residual);
+            if !graph.is_zero(residual) {
+                premises.residuals.push(residual);
+            }
+        }
+        premises
+    }
+
+    /// Takes `a = b` as the definition of the symbol `a`, if it is one and that closes no circle. A constant is not
+    /// defined by something that depends on time: that it does not change is information of its own.
+    fn define(&mut self, graph: &mut Graph, a: Expr, b: Expr, kept: &BTreeSet<SymId>) -> bool {
+        let Node::Symbol(s) = *graph.node(a) else { return false };
+        if kept.contains(&s) || self.definition(graph, s).is_some() {
+            return false;
+        }
+        let info = graph.info(s).clone();
+        if !info.of_t && graph.symbols(&[b]).iter().any(|x| graph.info(*x).of_t) {
+            return false;
+        }
+        let resolved = self.resolve(graph, b);
+        let own = |x: &SymId| graph.info(*x).base == info.base && graph.info(*x).order >= info.order;
+        if graph.symbols(&[resolved]).iter().any(own) {
+            return false;
+        }
+        self.definitions.insert(s, resolved);
+        // What was resolved before may mention the symbol.
+        let earlier: Vec<(SymId, Expr)> = self.definitions.iter().map(|(k, v)| (*k, *v)).collect();
+        for (symbol, value) in earlier {
+            let value = self.resolve(graph, value);
+            self.definitions.insert(symbol, value);
+        }
+        true
+    }
+
+    /// The definition that covers a symbol: its own, or that of a lower derivative, with the number of derivatives
+    /// still to be taken.
+    fn definition(&self, graph: &Graph, s: SymId) -> Option<(Expr, u32)> {
+        let info = graph.info(s);
+        self.definitions.iter().find_map(|(defined, value)| {
+            let d = graph.info(*defined);
+            (d.base == info.base && d.order <= info.order).then(|| (*value, info.order - d.order))
+        })
+    }
+
+    /// An expression with every defined symbol replaced.
+    pub fn resolve(&self, graph: &mut Graph, e: Expr) -> Expr {
+        let mut e = e;
+        // Each pass replaces at least one level of definitions; circles are excluded.
+        for _ in 0..64 {
+            let mut map = HashMap::new();
+            for s in graph.symbols(&[e]) {
+                if let Some((mut value, times)) = self.definition(graph, s) {
+                    let t = graph.find("t");
+                    for _ in 0..times {
+                        value = graph.time_derivative(value, t);
+                    }
+                    map.insert(s, value);
+                }
+            }
+            if map.is_empty() {
+                break;
+            }
+            e = graph.substitute(e, &map);
+        }
+        e
+    }
+
+    /// Adds the time derivatives of the residuals as long as they hold no higher derivative of any symbol than occurs
+    /// in `targets` or in the premises themselves.
+    pub fn close_in_time(&mut self, graph: &mut Graph, targets: &[Expr]) {
+        let mut highest: HashMap<SymId, u32> = HashMap::new();
+        let all: Vec<Expr> = targets.iter().chain(&self.residuals).copied().collect();
+        for s in graph.symbols(&all) {
+            let info = graph.info(s);
+            let order = highest.entry(info.base).or_insert(0);
+            *order = (*order).max(info.order);
+        }
+        let t = graph.find("t");
+        let mut seen: HashSet<Expr> = self.residuals.iter().copied().collect();
+        let mut at = 0;
+        while at < self.residuals.len() && self.residuals.len() < MOST_RESIDUALS {
+            let derivative = graph.time_derivative(self.residuals[at], t);
+            let derivative = self.resolve(graph, derivative);
+            at += 1;
+            let known = |s: &SymId| {
+                let info = graph.info(*s);
+                !info.of_t || highest.get(&info.base).is_some_and(|order| info.order <= *order)
+            };
+            let symbols = graph.symbols(&[derivative]);
+            if !symbols.is_empty() && symbols.iter().all(known) && seen.insert(derivative) {
+                self.residuals.push(derivative);
+            }
+        }
+    }
+
+    /// Keeps only the residuals that have to do with `targets`: those that share symbols with them, directly or by
+    /// other residuals.
+    pub fn keep_related(&mut self, graph: &Graph, targets: &[Expr]) {
+        let mut reached = graph.symbols(targets);
+        let symbols: Vec<BTreeSet<SymId>> = self.residuals.iter().map(|r| graph.symbols(&[*r])).collect();
+        let mut kept = vec![false; self.residuals.len()];
+        loop {
+            let mut grown = false;
+            for (k, own) in symbols.iter().enumerate() {
+                if !kept[k] && (own.is_empty() || own.iter().any(|s| reached.contains(s))) {
+                    kept[k] = true;
+                    grown = true;
+                    reached.extend(own);
+                }
+            }
+            if !grown {
+                break;
+            }
+        }
+        let mut keep = kept.into_iter();
+        self.residuals.retain(|_| keep.next().unwrap_or(true));
+    }
+}

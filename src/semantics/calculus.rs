@@ -1,0 +1,393 @@
+//! Derivatives, differentials, bases that rotate, and the values that indices run through.
+
+use crate::expr::{Expr, Graph};
+use crate::latex::ast::{Font, Kind, Node, Rel, Span};
+
+use super::elaborate::{Elaborator, Typed};
+use super::error::{Error, Result};
+use super::juxtaposition::Item;
+use super::name::spelling;
+use super::scope::Basis;
+use super::value::{self, Matrix, Value};
+use super::world::Facts;
+
+/// A derivative written as a fraction.
+pub(super) struct Derivative {
+    /// The variables, one for each time it is taken; `t` by its name.
+    variables: Vec<Node>,
+    /// What stands in the numerator behind the `d`; `None` where the fraction is an operator.
+    pub(super) operand: Option<Vec<Node>>,
+}
+
+impl Elaborator<'_> {
+    /// Whether a factor is the d of a differential rather than a quantity d.
+    pub(super) fn is_differential_sign(&self, node: &Node) -> bool {
+        is_d(node) && !self.is_declared(node)
+    }
+
+    /// Reads `\frac{d X}{dt}`, `\frac{d^2}{dt^2}`, `\frac{\partial F}{\partial x}`; `None` for an ordinary quotient.
+    pub(super) fn derivative(&self, num: &Node, den: &Node) -> Option<Derivative> {
+        if is_d(num) && self.is_declared(num) {
+            return None;
+        }
+        let (order, operand) = numerator(num)?;
+        let factors = match &den.kind {
+            Kind::Juxt(factors) => factors.as_slice(),
+            _ => return None,
+        };
+        let mut variables = Vec::new();
+        for pair in factors.chunks(2) {
+            let [d, variable] = pair else { return None };
+            if !is_d(d) {
+                return None;
+            }
+            let (variable, times) = variable_and_order(variable);
+            variables.extend(std::iter::repeat_n(variable, times));
+        }
+        (variables.len() == order).then_some(Derivative { variables, operand })
+    }
+
+    /// The derivative of a value.
+    pub(super) fn derived(&mut self, derivative: &Derivative, inner: Typed, span: &Span) -> Result<Typed> {
+        let mut value = inner.value;
+        let mut text = inner.text;
+        for variable in &derivative.variables {
+            let name = spelling(variable);
+            if name == "t" {
+                value = self.time_derivative(&value, 1);
+            } else {
+                let x = self.value(variable)?;
+                let x = self.scalar(&x, span)?;
+                let crate::expr::Node::Symbol(id) = *self.world.graph.node(x) else {
+                    return Err(Error::unsupported(format!("a derivative with respect to {name}, which is no symbol"), span));
+                };
+                value = value.map(&mut |e| self.world.graph.diff(e, id));
+            }
+            text = format!("d/d{name}({text})");
+        }
+        Ok(Typed::new(value, text))
+    }
+
+    /// The n-th derivative with respect to time.
+    pub(super) fn time_derivative(&mut self, value: &Value, n: u32) -> Value {
+        let mut value = value.clone();
+        for _ in 0..n {
+            let graph = &mut self.world.graph;
+            let t = graph.find("t");
+            value = value.map(&mut |e| graph.time_derivative(e, t));
+        }
+        value
+    }
+
+    /// `dx`: the differential of what follows, its time derivative times `dt`.
+    pub(super) fn differential(&mut self, operand: &Node) -> Result<Typed> {
+        let dt = self.world.symbol("dt", false, || Facts { tex: "dt".into(), ..Facts::default() });
+        let dt = self.world.graph.sym(dt);
+        if spelling(operand) == "t" {
+            return Ok(Typed::new(Value::Scalar(dt), "dt"));
+        }
+        let inner = self.value(operand)?;
+        let rate = self.time_derivative(&inner.value, 1);
+        let graph = &mut self.world.graph;
+        Ok(Typed::new(rate.map(&mut |e| graph.mul(e, dt)), format!("d({})", inner.text)))
+    }
+
+    // ---- bases ------------------------------------------------------------------------------------------------
+
+    fn basis(&self, name: &str, span: &Span) -> Result<Basis> {
+        self.scope.basis(name).cloned().ok_or_else(|| {
+            Error::undeclared(format!("undeclared basis {name}"), span).with_help(format!("declare it under [basis.{name}]"))
+        })
+    }
+
+    /// The three vectors of a basis, in inertial components. A rotating basis is turned by its Euler angles, or where
+    /// the notes have none, by angles of our own: any rotation of space has them.
+    pub(super) fn triad(&mut self, name: &str, span: &Span) -> Result<[[Expr; 3]; 3]> {
+        if let Some(triad) = self.world.triad(name) {
+            return Ok(triad);
+        }
+        let basis = self.basis(name, span)?;
+        let graph = &mut self.world.graph;
+        let (zero, one) = (graph.int(0), graph.int(1));
+        let mut triad = [[one, zero, zero], [zero, one, zero], [zero, zero, one]];
+        if basis.rotating {
+            let angles = self.angles(&basis, span)?;
+            // r = R1 R2 R3 applied to the unit vectors: the last turn is the innermost.
+            for (angle, axis) in angles.iter().zip(basis.order.chars()).rev() {
+                triad = triad.map(|v| turned(&mut self.world.graph, &v, *angle, axis));
+            }
+        }
+        self.world.set_triad(name, triad);
+        Ok(triad)
+    }
+
+    fn angles(&mut self, basis: &Basis, span: &Span) -> Result<[Expr; 3]> {
+        let mut angles = Vec::new();
+        for k in 0..3 {
+            angles.push(match &basis.euler {
+                Some(names) => {
+                    let angle = self.value(&names[k])?;
+                    self.scalar(&angle, span)?
+                }
+                None => {
+                    let tex = format!("\\alpha_{{{}\\text{{ of {}}}}}", k + 1, basis.name);
+                    let id = self.world.symbol(&tex.clone(), true, || Facts { tex, range: Some([0.3, 1.2]), integer: false });
+                    self.world.graph.sym(id)
+                }
+            });
+        }
+        angles.try_into().map_err(|_| Error::unsupported("a basis has three angles", span))
+    }
+
+    /// The angular velocity ω of a basis: the vector with ė = ω × e for each of its vectors, half the sum of e × ė.
+    pub(super) fn angular_velocity(&mut self, name: &str, span: &Span) -> Result<[Expr; 3]> {
+        let triad = self.triad(name, span)?;
+        let graph = &mut self.world.graph;
+        let half = graph.ratio(1, 2);
+        let mut omega = [graph.int(0); 3];
+        for e in &triad {
+            let rate = e.map(|c| graph.time_derivative(c, None));
+            let cross = value::cross3(graph, e, &rate);
+            omega = [0, 1, 2].map(|k| graph.add(omega[k], cross[k]));
+        }
+        Ok(omega.map(|c| graph.mul(half, c)))
+    }
+
+    /// The component of a vector along an axis of a basis; of a column, its entry.
+    pub(super) fn component(&mut self, whole: &Typed, basis: &str, axis: usize, span: &Span) -> Result<Typed> {
+        let e = match &whole.value {
+            Value::Vector(v) => {
+                let triad = self.triad(basis, span)?;
+                value::dot3(&mut self.world.graph, v, &triad[axis])
+            }
+            Value::Matrix(m) if m.cols == 1 && axis < m.rows => m.data[axis],
+            other => return Err(Error::shape(format!("{} has no component along an axis", other.shape()), span)),
+        };
+        Ok(Typed::new(Value::Scalar(e), format!("[{}]_{}", whole.text, axis + 1)))
+    }
+
+    /// The column of a vector's components in the basis that columns are written in.
+    pub(super) fn as_column(&mut self, vector: &Value, span: &Span) -> Result<Value> {
+        let Value::Vector(v) = vector else { return Ok(vector.clone()) };
+        let Some(basis) = self.scope.column_basis().map(|b| b.name.clone()) else {
+            return Err(Error::undeclared("a vector meets a matrix, and no basis says which components are meant", span)
+                .with_help("set columns = true in the [basis.NAME] that columns are written in"));
+        };
+        let triad = self.triad(&basis, span)?;
+        let data = triad.iter().map(|e| value::dot3(&mut self.world.graph, v, e)).collect();
+        Ok(Value::Matrix(Matrix { rows: 3, cols: 1, data }))
+    }
+
+    // ---- indices ----------------------------------------------------------------------------------------------
+
+    /// The assignments of indices that a sum runs through: `\sum_i`, `\sum_{i=1}^{3}`, `\sum_{j \neq k}`, `\sum`.
+    pub(super) fn index_values(
+        &mut self,
+        sub: Option<&Node>,
+        sup: Option<&Node>,
+        body: &[Item],
+        span: &Span,
+    ) -> Result<Vec<Vec<(String, i64)>>> {
+        if let (Some(Node { kind: Kind::Chain { first: Some(letter), links }, .. }), Some(last)) = (sub, sup)
+            && let [link] = links.as_slice()
+            && link.rel == Rel::Eq
+        {
+            let name = spelling(letter);
+            let (from, to) = (self.integer(&link.rhs)?, self.integer(last)?);
+            if to.saturating_sub(from) > 10_000 {
+                return Err(Error::unsupported(format!("a sum of {} terms is too long", to.saturating_sub(from)), span));
+            }
+            return Ok((from..=to).map(|v| vec![(name.clone(), v)]).collect());
+        }
+        let letters = match sub {
+            Some(sub) => self.unbound_indices(&[Item::Factor(sub)]),
+            None => self.unbound_indices(body),
+        };
+        if letters.is_empty() {
+            return Err(Error::undeclared("this sum names no declared index", span)
+                .with_help("declare the index under [symbols], as in 'i' = { index = [1, 3] }"));
+        }
+        let mut assignments = vec![Vec::new()];
+        for letter in letters {
+            let Some((from, to)) = self.scope.index(&letter) else { continue };
+            assignments = assignments
+                .into_iter()
+                .flat_map(|a: Vec<(String, i64)>| (from..=to).map(move |v| (a.clone(), v)))
+                .map(|(mut a, v)| {
+                    a.push((letter.clone(), v));
+                    a
+                })
+                .collect();
+        }
+        match sub {
+            Some(Node { kind: Kind::Chain { first: Some(first), links }, .. }) => {
+                let kept = assignments.into_iter().map(|a| Ok((self.condition(first, links, &a)?, a)));
+                let kept: Vec<(bool, _)> = kept.collect::<Result<_>>()?;
+                Ok(kept.into_iter().filter(|(keep, _)| *keep).map(|(_, a)| a).collect())
+            }
+            _ => Ok(assignments),
+        }
+    }
+
+    fn condition(&self, first: &Node, links: &[crate::latex::ast::Link], a: &[(String, i64)]) -> Result<bool> {
+        let value = |n: &Node| -> Result<i64> {
+            let name = spelling(n);
+            let own = a.iter().find(|(letter, _)| *letter == name).map(|(_, v)| *v);
+            own.or_else(|| self.index_value(&name))
+                .or_else(|| name.parse().ok())
+                .ok_or_else(|| Error::undeclared(format!("the index {name} has no value here"), &n.span))
+        };
+        let mut left = value(first)?;
+        for link in links {
+            let right = value(&link.rhs)?;
+            let holds = match link.rel {
+                Rel::Ne => left != right,
+                Rel::Lt => left < right,
+                Rel::Gt => left > right,
+                Rel::Le => left <= right,
+                Rel::Ge => left >= right,
+                Rel::Eq => left == right,
+                _ => return Err(Error::unsupported("an unknown condition on indices", &link.rel_span)),
+            };
+            if !holds {
+                return Ok(false);
+            }
+            left = right;
+        }
+        Ok(true)
+    }
+
+    fn integer(&mut self, node: &Node) -> Result<i64> {
+        let typed = self.value(node)?;
+        let e = self.scalar(&typed, &node.span)?;
+        match self.world.graph.as_rational(e) {
+            Some((n, 1)) => i64::try_from(n).map_err(|_| Error::unsupported("this bound is too large", &node.span)),
+            _ => Err(Error::unsupported("the bounds of a sum must be integers", &node.span)),
+        }
+    }
+
+    /// The declared indices that occur in some items and have no value yet, in order of occurrence. Sums within bind
+    /// their own.
+    pub(super) fn unbound_indices(&self, items: &[Item]) -> Vec<String> {
+        let mut found = Vec::new();
+        let mut bound = Vec::new();
+        for item in items {
+            if let Item::Factor(node) = item {
+                self.collect_indices(node, &mut bound, &mut found);
+            }
+        }
+        found
+    }
+
+    fn collect_indices(&self, node: &Node, bound: &mut Vec<String>, found: &mut Vec<String>) {
+        if let Kind::Symbol(s) = &node.kind
+            && self.scope.index(s).is_some()
+            && self.index_value(s).is_none()
+            && !bound.contains(s)
+            && !found.contains(s)
+        {
+            found.push(s.clone());
+        }
+        let depth = bound.len();
+        for child in children(node) {
+            let mut limits = Vec::new();
+            if let Kind::Scripts { base, sub, .. } = &child.kind
+                && matches!(base.kind, Kind::BigOp(_))
+            {
+                // What follows the operator within this node is bound by it.
+                match sub {
+                    Some(sub) => self.collect_indices(sub, &mut Vec::new(), &mut limits),
+                    None => {}
+                }
+                bound.extend(limits);
+                continue;
+            }
+            if matches!(child.kind, Kind::BigOp(_)) {
+                // A sum without limits runs over all indices behind it.
+                break;
+            }
+            self.collect_indices(child, bound, found);
+        }
+        bound.truncate(depth);
+    }
+}
+
+/// The nodes directly below a node, products laid flat so that what follows a big operator stands behind it.
+fn children(node: &Node) -> Vec<&Node> {
+    if !matches!(node.kind, Kind::Juxt(_) | Kind::Product { .. }) {
+        return node.children();
+    }
+    let mut items = Vec::new();
+    super::juxtaposition::flatten(node, &mut items);
+    let factors = items.into_iter().filter_map(|item| match item {
+        Item::Factor(n) => Some(n),
+        Item::Op(..) => None,
+    });
+    factors.collect()
+}
+
+/// A vector turned by an angle about an axis of the inertial frame.
+fn turned(graph: &mut Graph, v: &[Expr; 3], angle: Expr, axis: char) -> [Expr; 3] {
+    let (sin, cos) = (graph.call(crate::expr::Func::Sin, angle), graph.call(crate::expr::Func::Cos, angle));
+    let k = match axis {
+        'x' => 0,
+        'y' => 1,
+        _ => 2,
+    };
+    let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+    let mut out = *v;
+    let (ci, sj) = (graph.mul(cos, v[i]), graph.mul(sin, v[j]));
+    let (si, cj) = (graph.mul(sin, v[i]), graph.mul(cos, v[j]));
+    out[i] = graph.sub(ci, sj);
+    out[j] = graph.add(si, cj);
+    out
+}
+
+fn is_d(node: &Node) -> bool {
+    match &node.kind {
+        Kind::Symbol(s) => s == "d" || s == "\\partial",
+        Kind::Styled(Font::Roman, body) => matches!(&body.kind, Kind::Symbol(s) if s == "d"),
+        _ => false,
+    }
+}
+
+/// The order of the `d` a numerator begins with, and what follows it.
+fn numerator(num: &Node) -> Option<(usize, Option<Vec<Node>>)> {
+    let power = |n: &Node| match &n.kind {
+        Kind::Scripts { base, primes: 0, sub: None, sup: Some(sup) } if is_d(base) => small_integer(sup),
+        _ => is_d(n).then_some(1),
+    };
+    match &num.kind {
+        Kind::Juxt(factors) => {
+            let (first, rest) = factors.split_first()?;
+            Some((power(first)?, Some(rest.to_vec())))
+        }
+        Kind::Product { first, rest } => {
+            let (order, operand) = numerator(first)?;
+            let mut operand = operand?;
+            let head = operand.pop()?;
+            // \frac{d (a \times b)}{dt} without brackets: the product is the operand.
+            let span = head.span.start..num.span.end;
+            operand.push(Node::new(Kind::Product { first: Box::new(head), rest: rest.clone() }, span));
+            Some((order, Some(operand)))
+        }
+        _ => Some((power(num)?, None)),
+    }
+}
+
+fn variable_and_order(node: &Node) -> (Node, usize) {
+    match &node.kind {
+        Kind::Scripts { base, primes: 0, sub: None, sup: Some(sup) } => match small_integer(sup) {
+            Some(n) => (base.as_ref().clone(), n),
+            None => (node.clone(), 1),
+        },
+        _ => (node.clone(), 1),
+    }
+}
+
+fn small_integer(node: &Node) -> Option<usize> {
+    match &node.kind {
+        Kind::Number(n) => n.parse().ok().filter(|n| (1..=12).contains(n)),
+        _ => None,
+    }
+}

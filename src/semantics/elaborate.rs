@@ -1,0 +1,410 @@
+//! From syntax to typed values: symbols, scripts, brackets, sums of terms.
+
+use crate::expr::{Expr, Func, SymId};
+use crate::latex::ast::{Delim, Kind, MatrixEnv, Node, Sign, Span, Term};
+
+use super::error::{Error, Result};
+use super::name::spelling;
+use super::scope::{Entry, EntryKind, Scope, pattern};
+use super::value::{self, Matrix, Value};
+use super::world::{Facts, World};
+
+/// A value with the way it was read, every operation in brackets.
+#[derive(Clone, Debug)]
+pub struct Typed {
+    /// The value.
+    pub value: Value,
+    /// How it was read.
+    pub text: String,
+}
+
+impl Typed {
+    pub(super) fn new(value: Value, text: impl Into<String>) -> Self {
+        Typed { value, text: text.into() }
+    }
+}
+
+/// Builds values in a [`World`] from syntax, by what a [`Scope`] declares.
+pub struct Elaborator<'w> {
+    /// The graph and its symbols.
+    pub world: &'w mut World,
+    /// The declarations in force.
+    pub scope: &'w Scope,
+    /// The indices that have a value here, the innermost last.
+    pub(super) indices: Vec<(String, i64)>,
+    /// Whether ± means +, for a formula with branches.
+    pub(super) upper: bool,
+}
+
+impl<'w> Elaborator<'w> {
+    /// An elaborator with the given indices fixed, on the upper or lower branch of ±.
+    pub fn new(world: &'w mut World, scope: &'w Scope, indices: Vec<(String, i64)>, upper: bool) -> Self {
+        Elaborator { world, scope, indices, upper }
+    }
+
+    /// The value of an expression.
+    pub fn value(&mut self, node: &Node) -> Result<Typed> {
+        match &node.kind {
+            Kind::Number(text) => self.number(text, &node.span),
+            Kind::Symbol(_) | Kind::Styled(..) | Kind::Accent(..) | Kind::Scripts { .. } | Kind::Dots(..) => self.atom(node),
+            Kind::Juxt(_) | Kind::Product { .. } | Kind::Frac(..) => self.product(node),
+            Kind::Sum(terms) => self.terms(terms),
+            Kind::Sqrt { index, body } => self.root(index.as_deref(), body, &node.span),
+            Kind::Group { open, close, body } => self.group(*open, *close, body, &node.span),
+            Kind::List(items) => self.tuple(items),
+            Kind::Matrix { env, rows } => self.matrix(*env, rows, &node.span),
+            Kind::Annotated { body, .. } => self.value(body),
+            Kind::Function(name) => Err(Error::unsupported(format!("\\{name} has no argument here"), &node.span)),
+            Kind::BigOp(_) => Err(Error::unsupported("this operator has nothing to act on", &node.span)),
+            Kind::Empty => Err(Error::unsupported("an expression is missing here", &node.span)),
+            Kind::Text(text) => {
+                Err(Error::unsupported(format!("words within a formula: {text}"), &node.span).with_help("give the formula a `reading` without the words"))
+            }
+            Kind::Ellipsis => Err(Error::unsupported("an ellipsis stands for terms that are not printed", &node.span)
+                .with_help("give the formula a `reading` in which the terms are written out or summed")),
+            Kind::Factorial(..) => Err(Error::unsupported("factorials are not evaluated yet", &node.span)),
+            Kind::At { .. } => Err(Error::unsupported("a value at a condition is not evaluated yet", &node.span)),
+            Kind::Chain { .. } | Kind::Rows(_) | Kind::Marked(..) => {
+                Err(Error::unsupported("a relation stands where a value is expected", &node.span))
+            }
+        }
+    }
+
+    fn number(&mut self, text: &str, span: &Span) -> Result<Typed> {
+        match self.world.graph.decimal(text) {
+            Some(e) => Ok(Typed::new(Value::Scalar(e), text)),
+            None => Err(Error::unsupported(format!("the number {text} cannot be read"), span)),
+        }
+    }
+
+    fn terms(&mut self, terms: &[Term]) -> Result<Typed> {
+        let mut sum: Option<Typed> = None;
+        for term in terms {
+            let next = self.value(&term.node)?;
+            let minus = match term.sign {
+                Sign::Plus => false,
+                Sign::Minus => true,
+                Sign::PlusMinus => !self.upper,
+                Sign::MinusPlus => self.upper,
+            };
+            let sign = if minus { "-" } else { "+" };
+            let graph = &mut self.world.graph;
+            sum = Some(match sum {
+                None if minus => Typed::new(value::negate(graph, &next.value), format!("-{}", next.text)),
+                None => next,
+                Some(acc) => {
+                    let span = term.sign_span.clone().map_or(term.node.span.clone(), |s| s.start..term.node.span.end);
+                    let value = add_or_zero(graph, &acc.value, &next.value, minus, &span)?;
+                    Typed::new(value, format!("{} {sign} {}", acc.text, next.text))
+                }
+            });
+        }
+        let sum = sum.ok_or_else(|| Error::unsupported("an empty sum", &(0..0)))?;
+        Ok(if terms.len() > 1 { Typed::new(sum.value, format!("({})", sum.text)) } else { sum })
+    }
+
+    fn tuple(&mut self, items: &[Node]) -> Result<Typed> {
+        let items = items.iter().map(|n| self.value(n)).collect::<Result<Vec<_>>>()?;
+        let text = items.iter().map(|t| t.text.as_str()).collect::<Vec<_>>().join(", ");
+        Ok(Typed::new(Value::Tuple(items.into_iter().map(|t| t.value).collect()), format!("({text})")))
+    }
+
+    fn root(&mut self, index: Option<&Node>, body: &Node, span: &Span) -> Result<Typed> {
+        let body_value = self.value(body)?;
+        let e = self.scalar(&body_value, &body.span)?;
+        let graph = &mut self.world.graph;
+        match index {
+            None => Ok(Typed::new(Value::Scalar(graph.sqrt(e)), format!("sqrt({})", body_value.text))),
+            Some(Node { kind: Kind::Number(n), .. }) if n.parse::<i32>().is_ok_and(|n| n > 0) => {
+                let third = graph.ratio(1, n.parse::<i128>().unwrap_or(1));
+                Ok(Typed::new(Value::Scalar(graph.pow(e, third)), format!("root({n}, {})", body_value.text)))
+            }
+            Some(_) => Err(Error::unsupported("the index of a root must be a positive integer", span)),
+        }
+    }
+
+    fn group(&mut self, open: Delim, close: Delim, body: &Node, span: &Span) -> Result<Typed> {
+        let inner = self.value(body)?;
+        match (open, close) {
+            (Delim::Bar, Delim::Bar) | (Delim::DoubleBar, Delim::DoubleBar) => self.magnitude(&inner, span),
+            (Delim::Angle | Delim::Floor | Delim::Ceil, _) => {
+                Err(Error::unsupported("these brackets have a meaning that is not evaluated yet", span))
+            }
+            _ => Ok(inner),
+        }
+    }
+
+    /// |x|: the absolute value, the length of a vector, the determinant of a matrix.
+    fn magnitude(&mut self, inner: &Typed, span: &Span) -> Result<Typed> {
+        let graph = &mut self.world.graph;
+        let e = match &inner.value {
+            Value::Scalar(e) => graph.call(Func::Abs, *e),
+            Value::Vector(v) => {
+                let square = value::dot3(graph, v, v);
+                graph.sqrt(square)
+            }
+            Value::Matrix(m) if m.rows == m.cols && m.rows <= 6 => value::determinant(graph, m),
+            other => return Err(Error::shape(format!("{} has no magnitude", other.shape()), span)),
+        };
+        Ok(Typed::new(Value::Scalar(e), format!("|{}|", inner.text)))
+    }
+
+    fn matrix(&mut self, env: MatrixEnv, rows: &[Vec<Node>], span: &Span) -> Result<Typed> {
+        if env == MatrixEnv::Cases {
+            return Err(Error::unsupported("cases stand only as the whole of a side", span));
+        }
+        let cols = rows.iter().map(Vec::len).max().unwrap_or(0);
+        let mut data = Vec::new();
+        let mut text = Vec::new();
+        for row in rows {
+            if row.len() != cols {
+                return Err(Error::shape(format!("a row of {} entries in a matrix of {cols} columns", row.len()), span));
+            }
+            for cell in row {
+                let entry = self.value(cell)?;
+                data.push(self.scalar(&entry, &cell.span)?);
+                text.push(entry.text);
+            }
+        }
+        let matrix = Matrix { rows: rows.len(), cols, data };
+        let text = format!("[{}x{cols}: {}]", rows.len(), text.join(", "));
+        if env == MatrixEnv::Determinant {
+            if matrix.rows != cols || cols > 6 {
+                return Err(Error::shape("a determinant needs as many rows as columns, at most 6", span));
+            }
+            let det = value::determinant(&mut self.world.graph, &matrix);
+            return Ok(Typed::new(Value::Scalar(det), format!("det{text}")));
+        }
+        Ok(Typed::new(Value::Matrix(matrix), text))
+    }
+
+    /// The scalar that is expected here.
+    pub(super) fn scalar(&mut self, typed: &Typed, span: &Span) -> Result<Expr> {
+        match &typed.value {
+            Value::Scalar(e) => Ok(*e),
+            other => Err(Error::shape(format!("expected a scalar, found {}", other.shape()), span)),
+        }
+    }
+
+    // ---- symbols ----------------------------------------------------------------------------------------------
+
+    /// A symbol with its scripts and dots.
+    pub(super) fn atom(&mut self, node: &Node) -> Result<Typed> {
+        if let Some(found) = self.declared(node)? {
+            return Ok(found);
+        }
+        match &node.kind {
+            Kind::Dots(n, body) => {
+                let inner = self.value(body)?;
+                let value = self.time_derivative(&inner.value, u32::from(*n));
+                Ok(Typed::new(value, format!("\\{}ot{{{}}}", "d".repeat(usize::from(*n)), inner.text)))
+            }
+            Kind::Scripts { base, primes, sub, sup } => self.scripts(node, base, *primes, sub.as_deref(), sup.as_deref()),
+            Kind::Symbol(s) if s == "\\pi" => Ok(Typed::new(Value::Scalar(self.world.graph.pi()), "\\pi")),
+            Kind::Styled(_, body) if matches!(&body.kind, Kind::Number(n) if n == "0") => {
+                let zero = self.world.graph.int(0);
+                Ok(Typed::new(Value::Vector([zero; 3]), "\\mathbf{0}"))
+            }
+            Kind::Symbol(s) if s == "e" => Ok(Typed::new(Value::Scalar(self.world.graph.e()), "e")),
+            _ => Err(self.not_declared(node)),
+        }
+    }
+
+    fn not_declared(&self, node: &Node) -> Error {
+        let name = spelling(node);
+        let error = Error::undeclared(format!("undeclared symbol {name}"), &node.span);
+        match self.scope.suggestion(&name) {
+            Some(near) => error.with_help(format!("did you mean {}? Otherwise declare it under [symbols]", near.replace('#', "i"))),
+            None => error.with_help(format!("declare it under [symbols], as in '{name}' = {{ range = [0.5, 2] }}")),
+        }
+    }
+
+    fn scripts(&mut self, node: &Node, base: &Node, primes: u8, sub: Option<&Node>, sup: Option<&Node>) -> Result<Typed> {
+        // Dots belong to the whole name: \dot{r}_G is the derivative of r_G.
+        if let Kind::Dots(n, inner) = &base.kind {
+            let kind = match (primes, sub) {
+                (0, None) => inner.kind.clone(),
+                _ => Kind::Scripts { base: inner.clone(), primes, sub: sub.cloned().map(Box::new), sup: None },
+            };
+            let dotted = Node::new(Kind::Dots(*n, Box::new(Node::new(kind, node.span.clone()))), node.span.clone());
+            let plain = self.atom(&dotted)?;
+            return self.with_power(plain, sup, &node.span);
+        }
+        if sup.is_some() {
+            let kind = match (primes, sub) {
+                (0, None) => base.kind.clone(),
+                _ => Kind::Scripts { base: Box::new(base.clone()), primes, sub: sub.cloned().map(Box::new), sup: None },
+            };
+            let plain = self.value(&Node::new(kind, base.span.start..sub.map_or(base.span.end, |s| s.span.end)))?;
+            return self.with_power(plain, sup, &node.span);
+        }
+        if let (0, Some(sub)) = (primes, sub)
+            && let Some((basis, axis)) = self.scope.axis(&spelling(sub)).map(|(b, k)| (b.name.clone(), k))
+            && (matches!(base.kind, Kind::Group { .. }) || self.is_declared(base))
+        {
+            let whole = self.value(base)?;
+            return self.component(&whole, &basis, axis, &node.span);
+        }
+        Err(self.not_declared(node))
+    }
+
+    /// Whether a symbol is declared, without building its value.
+    pub(super) fn is_declared(&self, node: &Node) -> bool {
+        self.entry(node).is_some()
+    }
+
+    /// The entry of a symbol, with the values of its indices.
+    pub(super) fn entry(&self, node: &Node) -> Option<(&Entry, Vec<i64>)> {
+        let exact = spelling(node);
+        if exact.is_empty() {
+            return None;
+        }
+        if let Some(entry) = self.scope.get(&exact) {
+            return Some((entry, Vec::new()));
+        }
+        let values = std::cell::RefCell::new(Vec::new());
+        let is_index = |letter: &str| self.index_value(letter).inspect(|v| values.borrow_mut().push(*v)).is_some();
+        let family = pattern(node, &is_index);
+        if let Some(entry) = self.scope.get(&family) {
+            return Some((entry, values.into_inner()));
+        }
+        // Numbers as indices: m_1 of the family m_i.
+        let numbered = numbered_pattern(node)?;
+        Some((self.scope.get(&numbered.0)?, numbered.1))
+    }
+
+    /// The value that an index letter has here.
+    pub(super) fn index_value(&self, letter: &str) -> Option<i64> {
+        self.indices.iter().rev().find(|(name, _)| name == letter).map(|(_, v)| *v)
+    }
+
+    /// The value of a declared symbol, or `None` where the node is no declared name.
+    fn declared(&mut self, node: &Node) -> Result<Option<Typed>> {
+        let Some((entry, indices)) = self.entry(node) else { return Ok(None) };
+        let entry = entry.clone();
+        let name = instance(&entry.pattern, &indices);
+        let value = match &entry.kind {
+            EntryKind::Scalar => Value::Scalar(self.scalar_symbol(&entry, &name, name.clone())),
+            EntryKind::Vector => Value::Vector(["x", "y", "z"].map(|axis| {
+                self.scalar_symbol(&entry, &format!("{name}.{axis}"), format!("({name})_{axis}"))
+            })),
+            EntryKind::Matrix { rows, cols } => {
+                let cells = (0..rows * cols).map(|k| (k / cols + 1, k % cols + 1));
+                let data = cells.map(|(i, j)| self.scalar_symbol(&entry, &format!("{name}.{i}{j}"), format!("{name}_{{{i}{j}}}")));
+                Value::Matrix(Matrix { rows: *rows, cols: *cols, data: data.collect() })
+            }
+            EntryKind::Index(..) => match self.index_value(&name) {
+                Some(v) => Value::Scalar(self.world.graph.int(v)),
+                None => return Err(Error::undeclared(format!("the index {name} has no value here"), &node.span)),
+            },
+            EntryKind::Same(other) => return self.value(other).map(Some),
+            EntryKind::Component { of, basis, axis } => {
+                let whole = self.value(of)?;
+                let component = self.component(&whole, basis, *axis, &node.span)?;
+                return Ok(Some(Typed::new(component.value, name)));
+            }
+            EntryKind::BasisVector { basis, axis } => Value::Vector(self.triad(basis, &node.span)?[*axis]),
+            EntryKind::Rate { basis } => Value::Vector(self.angular_velocity(basis, &node.span)?),
+            EntryKind::Function => {
+                return Err(Error::unsupported(format!("the function {name} has no argument here"), &node.span));
+            }
+        };
+        Ok(Some(Typed::new(value, shown_name(node))))
+    }
+
+    fn scalar_symbol(&mut self, entry: &Entry, name: &str, tex: String) -> Expr {
+        let facts = || Facts { tex, range: entry.range, integer: entry.integer };
+        let id: SymId = self.world.symbol(name, entry.of_t, facts);
+        self.world.graph.sym(id)
+    }
+
+    // ---- powers -----------------------------------------------------------------------------------------------
+
+    /// A value raised to what stands in the superscript.
+    pub(super) fn with_power(&mut self, base: Typed, sup: Option<&Node>, span: &Span) -> Result<Typed> {
+        let Some(sup) = sup else { return Ok(base) };
+        if matches!(&sup.kind, Kind::Symbol(s) if s == "\\circ") {
+            return self.degrees(base, span);
+        }
+        if let (Value::Matrix(m), Kind::Symbol(t)) = (&base.value, &sup.kind)
+            && t == "T"
+        {
+            let data = (0..m.rows * m.cols).map(|k| m.at(k % m.rows, k / m.rows)).collect();
+            return Ok(Typed::new(Value::Matrix(Matrix { rows: m.cols, cols: m.rows, data }), format!("{}^T", base.text)));
+        }
+        let exponent = self.value(sup)?;
+        let n = self.scalar(&exponent, &sup.span)?;
+        let graph = &mut self.world.graph;
+        let integer = graph.as_rational(n).filter(|(_, d)| *d == 1).and_then(|(n, _)| i32::try_from(n).ok());
+        let value = match (&base.value, integer) {
+            (Value::Scalar(x), _) => Value::Scalar(graph.pow(*x, n)),
+            (Value::Vector(v), Some(2)) => Value::Scalar(value::dot3(graph, v, v)),
+            (Value::Matrix(m), Some(-1)) => Value::Matrix(value::inverse(graph, m, span)?),
+            (Value::Matrix(_), Some(n)) if (1..=8).contains(&n) => {
+                let mut power = base.value.clone();
+                for _ in 1..n {
+                    power = value::multiply(graph, &power, &base.value, span)?;
+                }
+                power
+            }
+            (other, _) => return Err(Error::shape(format!("{} cannot be raised to this power", other.shape()), span)),
+        };
+        Ok(Typed::new(value, format!("{}^{}", base.text, exponent.text)))
+    }
+
+    fn degrees(&mut self, base: Typed, span: &Span) -> Result<Typed> {
+        let e = self.scalar(&base, span)?;
+        let graph = &mut self.world.graph;
+        let (pi, half_turn) = (graph.pi(), graph.int(180));
+        let degree = graph.div(pi, half_turn);
+        Ok(Typed::new(Value::Scalar(graph.mul(e, degree)), format!("{}°", base.text)))
+    }
+}
+
+/// Sum or difference in which the number 0 also stands for the null vector.
+pub(super) fn add_or_zero(
+    graph: &mut crate::expr::Graph,
+    a: &Value,
+    b: &Value,
+    minus: bool,
+    span: &Span,
+) -> Result<Value> {
+    if b.is_zero_scalar(graph) {
+        return Ok(a.clone());
+    }
+    value::add(graph, a, b, minus, span)
+}
+
+/// A family's name with its indices filled in.
+fn instance(pattern: &str, indices: &[i64]) -> String {
+    let mut values = indices.iter();
+    pattern
+        .chars()
+        .map(|c| match c {
+            '#' => values.next().map_or_else(|| "#".to_owned(), i64::to_string),
+            c => c.to_string(),
+        })
+        .collect()
+}
+
+/// The pattern of a name in which the numbers in the scripts are indices, with their values.
+fn numbered_pattern(node: &Node) -> Option<(String, Vec<i64>)> {
+    let Kind::Scripts { base, primes, sub: Some(sub), sup: None } = &node.kind else { return None };
+    let values = std::cell::RefCell::new(Vec::new());
+    let leaf = |n: &Node| match &n.kind {
+        Kind::Number(digits) => digits.parse().ok().map(|v: i64| {
+            values.borrow_mut().push(v);
+            "#".to_owned()
+        }),
+        _ => None,
+    };
+    let sub = super::name::spelling_with(sub, &leaf);
+    let text = format!("{}{}_{{{sub}}}", spelling(base), "'".repeat(usize::from(*primes)));
+    let values = values.into_inner();
+    (!values.is_empty()).then_some((text, values))
+}
+
+/// A name as it is shown in a reading.
+fn shown_name(node: &Node) -> String {
+    spelling(node)
+}

@@ -1,0 +1,30 @@
+//! Understanding: from the syntax tree and the declared symbols to statements between typed values.
+//!
+//! Shapes live here and nowhere else: vectors, matrices, tuples and sums over particles are expanded into scalar
+//! expressions of one [`Graph`](crate::expr::Graph). Vectors are kept in the components of one fixed (inertial)
+//! frame, and a rotating basis is a triad of such vectors that depends on its angles; so d/dt is always taken
+//! component by component.
+//!
+//! Promises: a value is only ever built from what is declared in the [`Scope`]; what cannot be understood is an
+//! [`Error`] with its place, never a guess; a mismatch of shapes is told apart from a missing declaration, because the
+//! first is the author's and the second is the annotator's.
+
+mod calculus;
+mod elaborate;
+mod error;
+mod juxtaposition;
+mod name;
+mod scope;
+mod statement;
+mod value;
+mod world;
+
+pub use elaborate::{Elaborator, Typed};
+pub use error::{Error, ErrorKind};
+pub use name::spelling;
+pub use scope::{Basis, Entry, EntryKind, Scope};
+pub use statement::{
+    Clause, Instance, Side, Statement, TypedLink, begins_with_relation, has_branches, mentions, relation_latex, statement, understand,
+};
+pub use value::{Matrix, Value};
+pub use world::{Facts, World};

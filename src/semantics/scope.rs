@@ -1,0 +1,289 @@
+//! Which symbols are declared where an equation stands.
+
+use std::collections::HashMap;
+use std::sync::Arc;
+
+use crate::document::{BasisDeclaration, Declarations, Problem, Spanned, SymbolDeclaration};
+use crate::latex;
+use crate::latex::ast::{Kind, Node};
+
+use super::name::{nearest, spelling, spelling_with};
+
+/// What a declared symbol is.
+#[derive(Clone, Debug, PartialEq)]
+pub enum EntryKind {
+    /// A number.
+    Scalar,
+    /// A vector of space.
+    Vector,
+    /// An array of numbers.
+    Matrix {
+        /// The number of rows.
+        rows: usize,
+        /// The number of columns.
+        cols: usize,
+    },
+    /// An index with its first and last value.
+    Index(i64, i64),
+    /// A function that is applied to the group behind it.
+    Function,
+    /// Another notation of something.
+    Same(Node),
+    /// The component of a vector along an axis of a basis.
+    Component {
+        /// The vector.
+        of: Node,
+        /// The basis.
+        basis: String,
+        /// The axis: 0, 1, 2.
+        axis: usize,
+    },
+    /// A vector of a basis.
+    BasisVector {
+        /// The basis.
+        basis: String,
+        /// The axis: 0, 1, 2.
+        axis: usize,
+    },
+    /// The angular velocity of a basis.
+    Rate {
+        /// The basis.
+        basis: String,
+    },
+}
+
+/// A declared symbol, or a family of them with indices.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Entry {
+    /// The canonical spelling, with `#` for each index.
+    pub pattern: String,
+    /// What it is.
+    pub kind: EntryKind,
+    /// Whether it depends on time.
+    pub of_t: bool,
+    /// The range it is sampled from.
+    pub range: Option<[f64; 2]>,
+    /// Its unit.
+    pub unit: Option<String>,
+    /// Whether it takes integers only.
+    pub integer: bool,
+}
+
+impl Entry {
+    /// Whether it is an angle.
+    pub fn is_angle(&self) -> bool {
+        matches!(self.unit.as_deref(), Some("rad" | "deg"))
+    }
+}
+
+/// A declared basis of space.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Basis {
+    /// Its name.
+    pub name: String,
+    /// The spelling of its axes, the subscripts that mean components.
+    pub axes: [String; 3],
+    /// The Euler angles it is turned by, where the notes have symbols for them.
+    pub euler: Option<[Node; 3]>,
+    /// The axes of the three turns.
+    pub order: String,
+    /// Whether it rotates against the inertial frame.
+    pub rotating: bool,
+    /// Whether a column of three numbers means components in this basis.
+    pub columns: bool,
+}
+
+/// The declarations in force at some place of a document.
+#[derive(Clone, Debug, Default)]
+pub struct Scope {
+    entries: HashMap<String, Arc<Entry>>,
+    bases: Vec<Arc<Basis>>,
+    /// Premises that hold throughout the section, in LaTeX with their place in the file.
+    pub assume: Vec<Spanned<String>>,
+}
+
+impl Scope {
+    /// The entry of a canonical spelling.
+    pub fn get(&self, pattern: &str) -> Option<&Entry> {
+        self.entries.get(pattern).map(Arc::as_ref)
+    }
+
+    /// A basis by its name.
+    pub fn basis(&self, name: &str) -> Option<&Basis> {
+        self.bases.iter().rev().find(|b| b.name == name).map(Arc::as_ref)
+    }
+
+    /// The basis in which columns are components.
+    pub fn column_basis(&self) -> Option<&Basis> {
+        self.bases.iter().rev().find(|b| b.columns).map(Arc::as_ref)
+    }
+
+    /// The basis and axis that a subscript names. Bases declared later come first.
+    pub fn axis(&self, spelling: &str) -> Option<(&Basis, usize)> {
+        self.bases.iter().rev().find_map(|b| Some((b.as_ref(), b.axes.iter().position(|a| a == spelling)?)))
+    }
+
+    /// The first and last value of an index.
+    pub fn index(&self, name: &str) -> Option<(i64, i64)> {
+        match self.get(name)?.kind {
+            EntryKind::Index(from, to) => Some((from, to)),
+            _ => None,
+        }
+    }
+
+    /// The declared name nearest to one that is not declared.
+    pub fn suggestion(&self, name: &str) -> Option<&str> {
+        let mut names: Vec<&str> = self.entries.keys().map(String::as_str).collect();
+        names.sort_unstable();
+        nearest(name, names.into_iter())
+    }
+
+    /// Takes in a block of declarations; what cannot be taken in is returned with its place.
+    pub fn declare(&mut self, block: &Declarations) -> Vec<Problem> {
+        let mut problems = Vec::new();
+        for basis in &block.bases {
+            self.declare_basis(basis, &mut problems);
+        }
+        for symbol in &block.symbols {
+            self.declare_symbol(symbol, &mut problems);
+        }
+        self.assume.extend(block.assume.iter().cloned());
+        problems
+    }
+
+    fn declare_basis(&mut self, d: &BasisDeclaration, problems: &mut Vec<Problem>) {
+        let read = |texts: &[Spanned<String>; 3], problems: &mut Vec<Problem>| -> Option<[Node; 3]> {
+            let nodes: Vec<Node> = texts.iter().filter_map(|t| parse_name(t, problems)).collect();
+            nodes.try_into().ok()
+        };
+        let Some(vectors) = read(&d.vectors, problems) else { return };
+        let name = d.name.value.clone();
+        let axes = match &d.axes {
+            Some(axes) => match read(axes, problems) {
+                Some(nodes) => nodes.map(|n| spelling(&n)),
+                None => return,
+            },
+            None => vectors.clone().map(|v| subscript(&v).unwrap_or_default()),
+        };
+        let euler = d.euler.as_ref().and_then(|e| read(e, problems));
+        for (axis, vector) in vectors.iter().enumerate() {
+            let kind = EntryKind::BasisVector { basis: name.clone(), axis };
+            self.insert(spelling(vector), Entry { pattern: spelling(vector), kind, ..Entry::plain() });
+        }
+        if let Some(rate) = d.rate.as_ref().and_then(|r| parse_name(r, problems)) {
+            let kind = EntryKind::Rate { basis: name.clone() };
+            self.insert(spelling(&rate), Entry { pattern: spelling(&rate), kind, ..Entry::plain() });
+        }
+        let rotating = d.rotating || d.rate.is_some() || euler.is_some();
+        let order = d.order.as_ref().map_or_else(|| "zxz".to_owned(), |o| o.value.clone());
+        self.bases.push(Arc::new(Basis { name, axes, euler, order, rotating, columns: d.columns }));
+    }
+
+    /// Takes in one declaration.
+    pub fn declare_symbol(&mut self, d: &SymbolDeclaration, problems: &mut Vec<Problem>) {
+        let each: Vec<String> =
+            d.each.iter().filter_map(|i| parse_name(i, problems)).map(|node| spelling(&node)).collect();
+        for (position, name) in d.names.iter().enumerate() {
+            let Some(node) = parse_name(name, problems) else { continue };
+            let pattern = pattern(&node, &|letter| each.iter().any(|e| e == letter));
+            let Some(kind) = entry_kind(d, position, problems) else { continue };
+            let entry = Entry {
+                pattern: pattern.clone(),
+                kind,
+                of_t: d.of.is_some(),
+                range: d.range,
+                unit: d.unit.as_ref().map(|u| u.value.clone()),
+                integer: d.integer,
+            };
+            self.insert(pattern, entry);
+        }
+    }
+
+    fn insert(&mut self, pattern: String, entry: Entry) {
+        self.entries.insert(pattern, Arc::new(entry));
+    }
+
+    /// A copy with an equation's own declarations added.
+    pub fn with_local(&self, symbols: &[SymbolDeclaration], problems: &mut Vec<Problem>) -> Scope {
+        let mut scope = self.clone();
+        for d in symbols {
+            scope.declare_symbol(d, problems);
+        }
+        scope
+    }
+}
+
+impl Entry {
+    /// A constant scalar of which nothing is known.
+    fn plain() -> Entry {
+        Entry { pattern: String::new(), kind: EntryKind::Scalar, of_t: false, range: None, unit: None, integer: false }
+    }
+}
+
+/// The kind that a declaration gives to the name at a position of its list.
+fn entry_kind(d: &SymbolDeclaration, position: usize, problems: &mut Vec<Problem>) -> Option<EntryKind> {
+    Some(if let Some([from, to]) = d.index {
+        EntryKind::Index(from, to)
+    } else if let Some(same) = &d.same {
+        EntryKind::Same(parse_name(same, problems)?)
+    } else if let Some(of) = &d.component_of {
+        let basis = d.basis.as_ref().map_or_else(|| "body".to_owned(), |b| b.value.clone());
+        EntryKind::Component { of: parse_name(of, problems)?, basis, axis: position % 3 }
+    } else if d.vector.is_some() {
+        EntryKind::Vector
+    } else if let Some([rows, cols]) = d.matrix {
+        EntryKind::Matrix { rows, cols }
+    } else if d.function.is_some() {
+        EntryKind::Function
+    } else {
+        EntryKind::Scalar
+    })
+}
+
+/// The spelling of a name with `#` for the letters that are indices. Only scripts are looked into: an `i` at the base
+/// is a letter like any other.
+pub fn pattern(node: &Node, is_index: &dyn Fn(&str) -> bool) -> String {
+    match &node.kind {
+        Kind::Scripts { base, primes, sub, sup } => {
+            let leaf = |n: &Node| match &n.kind {
+                Kind::Symbol(s) if is_index(s) => Some("#".to_owned()),
+                _ => None,
+            };
+            let mut text = pattern(base, is_index);
+            text.push_str(&"'".repeat(usize::from(*primes)));
+            if let Some(sub) = sub {
+                text.push_str(&format!("_{{{}}}", spelling_with(sub, &leaf)));
+            }
+            if let Some(sup) = sup {
+                text.push_str(&format!("^{{{}}}", spelling_with(sup, &leaf)));
+            }
+            text
+        }
+        _ => spelling(node),
+    }
+}
+
+/// Reads a name written in a declaration.
+fn parse_name(text: &Spanned<String>, problems: &mut Vec<Problem>) -> Option<Node> {
+    match latex::parse(&text.value) {
+        Ok(node) => Some(node),
+        Err(error) => {
+            let message = format!("this name cannot be read: {}", error.message);
+            let problem = Problem::error("kenzan::name", message, text.place(error.span));
+            let problem = match error.help {
+                Some(help) => problem.help(help),
+                None => problem,
+            };
+            problems.push(problem);
+            None
+        }
+    }
+}
+
+/// The spelling of a name's subscript.
+fn subscript(node: &Node) -> Option<String> {
+    match &node.kind {
+        Kind::Scripts { sub: Some(sub), .. } => Some(spelling(sub)),
+        _ => None,
+    }
+}

@@ -1,0 +1,373 @@
+//! From a parsed equation to its links: what is said to equal what.
+
+use crate::expr::Expr;
+use crate::latex::ast::{Delim, Kind, Link, MatrixEnv, Node, Rel, Sign};
+use crate::latex::to_latex;
+
+use super::elaborate::Elaborator;
+use super::error::{Error, Result};
+use super::juxtaposition::Item;
+use super::scope::Scope;
+use super::value::Value;
+use super::world::World;
+
+/// One side of a link.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Side {
+    /// An expression.
+    Node(Node),
+    /// The word `const.`
+    Constant,
+}
+
+/// What one relation says: the link of a chain before it is understood.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Clause {
+    /// The left side.
+    pub lhs: Node,
+    /// The relation.
+    pub rel: Rel,
+    /// The right side.
+    pub rhs: Side,
+    /// The statement of the equation it belongs to, counted from 1: rows and list items that begin anew.
+    pub part: usize,
+    /// Whether the left side is the last side of the equation before.
+    pub continued: bool,
+}
+
+impl Clause {
+    /// The link's LaTeX.
+    pub fn latex(&self) -> String {
+        let rhs = match &self.rhs {
+            Side::Node(n) => to_latex(n),
+            Side::Constant => "\\text{const.}".to_owned(),
+        };
+        format!("{} {} {rhs}", to_latex(&self.lhs), relation_latex(self.rel))
+    }
+}
+
+/// An equation's clauses, with what a following equation may continue.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Statement {
+    /// The clauses in order.
+    pub clauses: Vec<Clause>,
+    /// The last side, which a following equation that begins with `=` continues.
+    pub last: Option<Node>,
+    /// The first side of the chain that the last side belongs to.
+    pub head: Option<Node>,
+}
+
+/// Takes an equation apart. `previous` is the statement before, for an equation that begins with a relation.
+pub fn statement(root: &Node, previous: Option<&Statement>) -> Result<Statement> {
+    let mut builder = Builder { out: Statement::default(), part: 0, continued: false };
+    if let Some(previous) = previous {
+        builder.out.last = previous.last.clone();
+        builder.out.head = previous.head.clone();
+        builder.continued = true;
+    }
+    builder.add(root)?;
+    Ok(builder.out)
+}
+
+struct Builder {
+    out: Statement,
+    part: usize,
+    /// Whether the side at hand stems from the equation before.
+    continued: bool,
+}
+
+impl Builder {
+    fn add(&mut self, node: &Node) -> Result<()> {
+        match &node.kind {
+            Kind::Rows(rows) => rows.iter().try_for_each(|row| self.add(row)),
+            Kind::List(items) => items.iter().try_for_each(|item| self.add(item)),
+            Kind::Marked(_, body) => self.add(body),
+            Kind::Annotated { body, .. } if holds_relation(body) => self.add(body),
+            Kind::Matrix { env: MatrixEnv::Cases | MatrixEnv::Array, rows } if rows.iter().flatten().any(holds_relation) => {
+                rows.iter().filter_map(|row| row.first()).try_for_each(|cell| self.add(cell))
+            }
+            Kind::Group { open: Delim::None | Delim::Brace, body, .. } if holds_relation(body) => self.add(body),
+            Kind::Juxt(factors) if factors.iter().any(holds_relation) => {
+                factors.iter().filter(|f| holds_relation(f)).try_for_each(|f| self.add(f))
+            }
+            Kind::Chain { first, links } => self.chain(first.as_deref(), links, node),
+            Kind::Text(_) | Kind::Empty => Ok(()),
+            _ => {
+                self.begin(node);
+                Ok(())
+            }
+        }
+    }
+
+    fn begin(&mut self, node: &Node) {
+        self.part += 1;
+        self.continued = false;
+        self.out.last = Some(node.clone());
+        self.out.head = Some(node.clone());
+    }
+
+    fn chain(&mut self, first: Option<&Node>, links: &[Link], node: &Node) -> Result<()> {
+        match first {
+            Some(first) if !is_words(first) => self.begin(first),
+            _ if self.out.last.is_none() => {
+                return Err(Error::unsupported("a relation with nothing before it", &node.span)
+                    .with_help("only the equation directly before can be continued"));
+            }
+            _ if self.part == 0 => self.part = 1,
+            _ => {}
+        }
+        for (k, link) in links.iter().enumerate() {
+            let states_both = links[..k].iter().any(|l| is_equality(l.rel)) || links[k + 1..].iter().any(|l| is_equality(l.rel));
+            if matches!(link.rel, Rel::Implies | Rel::Iff | Rel::ImpliedBy) && states_both {
+                self.begin(&link.rhs);
+                continue;
+            }
+            if matches!(link.rhs.kind, Kind::Empty) || is_words(&link.rhs) && !is_constant(&link.rhs) {
+                continue;
+            }
+            self.link(link)?;
+        }
+        Ok(())
+    }
+
+    fn link(&mut self, link: &Link) -> Result<()> {
+        let Some(lhs) = self.out.last.clone() else { return Ok(()) };
+        let constant = is_constant(&link.rhs);
+        let rhs = if constant { Side::Constant } else { Side::Node(link.rhs.clone()) };
+        self.out.clauses.push(Clause { lhs, rel: link.rel, rhs, part: self.part, continued: self.continued });
+        if !constant {
+            self.out.last = Some(link.rhs.clone());
+            self.continued = false;
+        }
+        Ok(())
+    }
+}
+
+/// Whether an equation continues the one before it.
+pub fn begins_with_relation(node: &Node) -> bool {
+    match &node.kind {
+        Kind::Chain { first, .. } => first.as_deref().is_none_or(is_words),
+        Kind::Rows(nodes) | Kind::List(nodes) => nodes.first().is_some_and(begins_with_relation),
+        Kind::Juxt(nodes) => nodes.iter().find(|n| !is_words(n)).is_some_and(begins_with_relation),
+        Kind::Marked(_, body) | Kind::Annotated { body, .. } => begins_with_relation(body),
+        Kind::Group { open: Delim::None, body, .. } => begins_with_relation(body),
+        _ => false,
+    }
+}
+
+/// Collects the patterns of the declared symbols that a formula mentions.
+pub fn mentions(scope: &Scope, node: &Node, found: &mut std::collections::HashSet<String>) {
+    let pattern = super::scope::pattern(node, &|letter| scope.index(letter).is_some());
+    if scope.get(&pattern).is_some() {
+        found.insert(pattern);
+    }
+    for child in node.children() {
+        mentions(scope, child, found);
+    }
+}
+
+fn is_equality(rel: Rel) -> bool {
+    matches!(rel, Rel::Eq | Rel::Equiv)
+}
+
+/// Whether a node is or holds a relation, not counting those within ordinary brackets.
+fn holds_relation(node: &Node) -> bool {
+    match &node.kind {
+        Kind::Chain { .. } => true,
+        Kind::Rows(nodes) | Kind::List(nodes) | Kind::Juxt(nodes) => nodes.iter().any(holds_relation),
+        Kind::Marked(_, body) | Kind::Annotated { body, .. } => holds_relation(body),
+        Kind::Group { open: Delim::None | Delim::Brace, body, .. } => holds_relation(body),
+        Kind::Matrix { env: MatrixEnv::Cases | MatrixEnv::Array, rows } => rows.iter().flatten().any(holds_relation),
+        _ => false,
+    }
+}
+
+/// Whether a side consists of words only.
+fn is_words(node: &Node) -> bool {
+    match &node.kind {
+        Kind::Text(_) => true,
+        Kind::Juxt(factors) => factors.iter().all(is_words),
+        _ => false,
+    }
+}
+
+/// Whether a side is the word const., perhaps with a name given to it in brackets behind.
+fn is_constant(node: &Node) -> bool {
+    match &node.kind {
+        Kind::Text(text) => text.trim().trim_end_matches('.').eq_ignore_ascii_case("const") || text.trim() == "一定",
+        Kind::Function(name) => name == "const",
+        Kind::Styled(_, body) => is_constant(body),
+        Kind::Juxt(factors) => factors.first().is_some_and(is_constant),
+        _ => false,
+    }
+}
+
+/// Whether a formula has branches by ±.
+pub fn has_branches(node: &Node) -> bool {
+    let here = match &node.kind {
+        Kind::Sum(terms) => terms.iter().any(|t| matches!(t.sign, Sign::PlusMinus | Sign::MinusPlus)),
+        _ => false,
+    };
+    here || node.children().into_iter().any(has_branches)
+}
+
+/// A link's sides for one assignment of its free indices.
+#[derive(Clone, Debug)]
+pub struct Instance {
+    /// Which one, as in `i = 2`, where there are several.
+    pub tag: Option<String>,
+    /// The left side.
+    pub lhs: Value,
+    /// The right side; [`Value::Constant`] for the word const.
+    pub rhs: Value,
+}
+
+/// A link understood: both sides for every assignment of the free indices.
+#[derive(Clone, Debug)]
+pub struct TypedLink {
+    /// The relation.
+    pub rel: Rel,
+    /// The sides.
+    pub instances: Vec<Instance>,
+    /// How the left side was read.
+    pub lhs_text: String,
+    /// How the right side was read.
+    pub rhs_text: String,
+}
+
+impl TypedLink {
+    /// The pairs of scalars that the link relates, with a name for each where there are several.
+    pub fn pairs(&self) -> Vec<(Option<String>, Expr, Expr)> {
+        let mut pairs = Vec::new();
+        for instance in &self.instances {
+            let (a, b) = (instance.lhs.components(), instance.rhs.components());
+            let several = a.len() > 1;
+            for (k, (a, b)) in a.into_iter().zip(b).enumerate() {
+                let component = several.then(|| component_name(&instance.lhs, k));
+                let parts: Vec<String> = instance.tag.iter().cloned().chain(component).collect();
+                pairs.push(((!parts.is_empty()).then(|| parts.join(", ")), a, b));
+            }
+        }
+        pairs
+    }
+}
+
+fn component_name(value: &Value, k: usize) -> String {
+    match value {
+        Value::Vector(_) => format!("{} component (inertial)", ["x", "y", "z"][k % 3]),
+        Value::Matrix(m) if m.cols == 1 => format!("row {}", k + 1),
+        Value::Matrix(m) => format!("entry {},{}", k / m.cols + 1, k % m.cols + 1),
+        _ => format!("part {}", k + 1),
+    }
+}
+
+/// Understands a clause in a world, by a scope. `upper` chooses the branch of ±.
+pub fn understand(world: &mut World, scope: &Scope, clause: &Clause, upper: bool) -> Result<TypedLink> {
+    let mut sides = vec![&clause.lhs];
+    if let Side::Node(rhs) = &clause.rhs {
+        sides.push(rhs);
+    }
+    let items: Vec<Item> = sides.iter().map(|n| Item::Factor(n)).collect();
+    let letters = Elaborator::new(world, scope, Vec::new(), upper).unbound_indices(&items);
+    let mut link = TypedLink { rel: clause.rel, instances: Vec::new(), lhs_text: String::new(), rhs_text: String::new() };
+    for assignment in assignments(scope, &letters) {
+        let tag = assignment.iter().map(|(l, v)| format!("{l} = {v}")).collect::<Vec<_>>().join(", ");
+        let mut elaborator = Elaborator::new(world, scope, assignment, upper);
+        let lhs = elaborator.value(&clause.lhs)?;
+        let (rhs, rhs_text) = match &clause.rhs {
+            Side::Constant => (Value::Constant, "const.".to_owned()),
+            Side::Node(node) => {
+                let rhs = elaborator.value(node)?;
+                (rhs.value, rhs.text)
+            }
+        };
+        let (left, right) = meet(&mut elaborator, lhs.value, rhs, clause)?;
+        link.instances.push(Instance { tag: (!tag.is_empty()).then_some(tag), lhs: left, rhs: right });
+        (link.lhs_text, link.rhs_text) = (lhs.text, rhs_text);
+    }
+    Ok(link)
+}
+
+/// Brings the sides of a link to one shape: 0 stands for the null of any shape, a vector beside a column is meant by
+/// its components.
+fn meet(elaborator: &mut Elaborator, lhs: Value, rhs: Value, clause: &Clause) -> Result<(Value, Value)> {
+    let zero = elaborator.world.graph.int(0);
+    let span = match &clause.rhs {
+        Side::Node(n) => n.span.clone(),
+        Side::Constant => clause.lhs.span.clone(),
+    };
+    Ok(match (lhs, rhs) {
+        (lhs, Value::Constant) => (lhs, Value::Constant),
+        (Value::Scalar(a), Value::Scalar(b)) => (Value::Scalar(a), Value::Scalar(b)),
+        (lhs, rhs) if rhs.is_zero_scalar(&elaborator.world.graph) => {
+            let null = lhs.map(&mut |_| zero);
+            (lhs, null)
+        }
+        (lhs, rhs) if lhs.is_zero_scalar(&elaborator.world.graph) => (rhs.map(&mut |_| zero), rhs),
+        (lhs @ Value::Vector(_), rhs @ Value::Matrix(_)) => (elaborator.as_column(&lhs, &span)?, rhs),
+        (lhs @ Value::Matrix(_), rhs @ Value::Vector(_)) => {
+            let column = elaborator.as_column(&rhs, &span)?;
+            (lhs, column)
+        }
+        (lhs, rhs) => (lhs, rhs),
+    })
+    .and_then(|(lhs, rhs)| {
+        let same = match (&lhs, &rhs) {
+            (_, Value::Constant) => true,
+            (Value::Matrix(a), Value::Matrix(b)) => (a.rows, a.cols) == (b.rows, b.cols),
+            (a, b) => std::mem::discriminant(a) == std::mem::discriminant(b) && a.components().len() == b.components().len(),
+        };
+        if same {
+            Ok((lhs, rhs))
+        } else {
+            Err(Error::shape(format!("the sides do not meet: {} on the left, {} on the right", lhs.shape(), rhs.shape()), &span))
+        }
+    })
+}
+
+/// All assignments of values to indices; one empty assignment where there are none.
+fn assignments(scope: &Scope, letters: &[String]) -> Vec<Vec<(String, i64)>> {
+    let mut all = vec![Vec::new()];
+    for letter in letters {
+        let Some((from, to)) = scope.index(letter) else { continue };
+        let mut next = Vec::new();
+        for assignment in &all {
+            for v in from..=to {
+                let mut longer: Vec<(String, i64)> = assignment.clone();
+                longer.push((letter.clone(), v));
+                next.push(longer);
+            }
+        }
+        all = next;
+    }
+    all
+}
+
+/// The LaTeX of a relation.
+pub fn relation_latex(rel: Rel) -> &'static str {
+    match rel {
+        Rel::Eq => "=",
+        Rel::Equiv => "\\equiv",
+        Rel::Ne => "\\neq",
+        Rel::Lt => "<",
+        Rel::Gt => ">",
+        Rel::Le => "\\leq",
+        Rel::Ge => "\\geq",
+        Rel::Ll => "\\ll",
+        Rel::Gg => "\\gg",
+        Rel::Approx => "\\approx",
+        Rel::Sim => "\\sim",
+        Rel::Cong => "\\cong",
+        Rel::Propto => "\\propto",
+        Rel::To => "\\to",
+        Rel::From => "\\leftarrow",
+        Rel::Exchange => "\\leftrightarrow",
+        Rel::Implies => "\\Rightarrow",
+        Rel::ImpliedBy => "\\Leftarrow",
+        Rel::Iff => "\\Leftrightarrow",
+        Rel::Parallel => "\\parallel",
+        Rel::Perp => "\\perp",
+        Rel::In => "\\in",
+        Rel::Ratio => ":",
+    }
+}

@@ -1,0 +1,84 @@
+//! The graph of one equation together with what is known of its symbols.
+
+use std::collections::HashMap;
+
+use crate::expr::{Expr, Graph, SymId};
+
+/// What is known of a symbol of the graph.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Facts {
+    /// Its LaTeX for the reader.
+    pub tex: String,
+    /// The range it is sampled from, where one is declared.
+    pub range: Option<[f64; 2]>,
+    /// Whether it takes integers only.
+    pub integer: bool,
+}
+
+/// One equation's graph and its symbols. Symbols are identified by their names, so an equation and its premises speak
+/// of the same things where they use the same letters.
+#[derive(Default)]
+pub struct World {
+    /// The graph of scalar operations.
+    pub graph: Graph,
+    facts: HashMap<SymId, Facts>,
+    triads: HashMap<String, [[Expr; 3]; 3]>,
+}
+
+impl World {
+    /// An empty world.
+    pub fn new() -> Self {
+        World::default()
+    }
+
+    /// The symbol of a name. What is known of it is kept from the first time it is met.
+    pub fn symbol(&mut self, name: &str, of_t: bool, facts: impl FnOnce() -> Facts) -> SymId {
+        let id = if of_t { self.graph.time_symbol(name) } else { self.graph.symbol(name) };
+        self.facts.entry(id).or_insert_with(facts);
+        id
+    }
+
+    /// What is known of a symbol; a derivative has no range of its own.
+    pub fn facts(&self, id: SymId) -> Facts {
+        match self.facts.get(&id) {
+            Some(facts) => facts.clone(),
+            None => Facts { tex: self.tex(id), ..Facts::default() },
+        }
+    }
+
+    /// A symbol's LaTeX.
+    pub fn tex(&self, id: SymId) -> String {
+        if let Some(facts) = self.facts.get(&id) {
+            return facts.tex.clone();
+        }
+        let info = self.graph.info(id);
+        let base = self.facts.get(&info.base).map_or_else(|| self.graph.info(info.base).name.clone(), |f| f.tex.clone());
+        match info.order {
+            0 => base,
+            n @ 1..=3 => format!("\\{}ot{{{base}}}", "d".repeat(n as usize)),
+            n => format!("{base}^{{({n})}}"),
+        }
+    }
+
+    /// Declares a symbol's range anew, as an equation's own annotation may.
+    pub fn set_range(&mut self, id: SymId, range: [f64; 2]) {
+        let mut facts = self.facts(id);
+        facts.range = Some(range);
+        self.facts.insert(id, facts);
+    }
+
+    /// Whether a range is declared for a symbol.
+    pub fn has_range(&self, id: SymId) -> bool {
+        self.facts.get(&id).is_some_and(|f| f.range.is_some())
+    }
+
+    /// The triad of a basis, once it has been built.
+    pub(super) fn triad(&self, basis: &str) -> Option<[[Expr; 3]; 3]> {
+        self.triads.get(basis).copied()
+    }
+
+    /// Remembers the triad of a basis.
+    pub(super) fn set_triad(&mut self, basis: &str, triad: [[Expr; 3]; 3]) {
+        self.triads.insert(basis.to_owned(), triad);
+    }
+}
