@@ -4,9 +4,13 @@ pub mod diff;
 mod display;
 pub mod graph;
 mod ratio;
+pub mod tape;
 
 pub use crate::number::Func;
 pub use graph::{Expr, Graph, Node, SymId, SymbolInfo};
+pub use tape::{Tape, Workspace};
 
+#[cfg(test)]
+mod tape_tests;
 #[cfg(test)]
 mod tests;

@@ -176,23 +176,23 @@ fn terms_with_signs() {
 }
 
 #[test]
-fn a_million_terms_do_not_overflow_the_stack() {
+fn many_terms_do_not_overflow_the_stack() {
     let mut g = Graph::new();
     let (sx, t) = (g.time_symbol("x"), g.symbol("t"));
     let mut e = g.sym(sx);
     let x = e;
-    for n in 2..=1_000_000 {
+    for n in 2..=200_000 {
         let n = g.int(n);
         let term = g.div(x, n);
         e = g.add(e, term);
     }
-    assert_eq!(g.terms(e).len(), 1_000_000);
+    assert_eq!(g.terms(e).len(), 200_000);
     assert_eq!(g.symbols(&[e]).len(), 1);
     let d = g.time_derivative(e, Some(t));
-    assert_eq!(g.terms(d).len(), 1_000_000);
+    assert_eq!(g.terms(d).len(), 200_000);
     let y = g.symbol("y");
     let y = g.sym(y);
     let replaced = g.substitute(e, &HashMap::from([(sx, y)]));
-    assert_eq!(g.terms(replaced).len(), 1_000_000);
+    assert_eq!(g.terms(replaced).len(), 200_000);
     assert!(g.display(e).ends_with('…'));
 }
