@@ -16,4 +16,6 @@
 //! | 1 | `document`, `latex`, `number` |
 
 pub mod check;
+pub mod expr;
 pub mod latex;
+pub mod number;

@@ -1,0 +1,16 @@
+//! Scalar expressions: a graph with shared subexpressions, and calculus on it.
+
+pub mod diff;
+mod display;
+pub mod graph;
+mod ratio;
+pub mod tape;
+
+pub use crate::number::Func;
+pub use graph::{Expr, Graph, Node, SymId, SymbolInfo};
+pub use tape::{Tape, Workspace};
+
+#[cfg(test)]
+mod tape_tests;
+#[cfg(test)]
+mod tests;
