@@ -16,6 +16,8 @@
 //! | 1 | `document`, `latex`, `number` |
 
 pub mod check;
+pub mod document;
 pub mod expr;
 pub mod latex;
+pub mod semantics;
 pub mod number;

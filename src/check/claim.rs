@@ -120,7 +120,7 @@ impl Source<'_> {
     fn given(&self, world: &mut World) -> Result<Vec<(Expr, Expr)>, Obstacle> {
         let entry = &self.book.entries[self.index];
         let mut pairs = Vec::new();
-        for text in entry.list(|a| &a.premises) {
+        for text in entry.list(|a| &a.where_) {
             self.add_text(world, text, &mut pairs)?;
         }
         for reference in entry.list(|a| &a.given) {

@@ -48,7 +48,7 @@ pub fn judge(book: &Book, index: usize, options: &Options) -> Judgement {
         as_printed: entry.reading.is_none(),
         reading: entry.reading.as_ref().map(|f| f.latex.clone()),
         given: entry.list(|a| &a.given).iter().chain(entry.list(|a| &a.solves)).map(|g| g.value.clone()).collect(),
-        assumptions: entry.list(|a| &a.premises).iter().map(|p| p.value.clone()).collect(),
+        assumptions: entry.list(|a| &a.where_).iter().map(|p| p.value.clone()).collect(),
         because: annotation.and_then(|a| a.because.clone()),
         reason: None,
         links: Vec::new(),
@@ -183,7 +183,7 @@ fn defines(book: &Book, index: usize, clause: &Clause) -> bool {
         return false;
     }
     let entry = &book.entries[index];
-    let premises = entry.list(|a| &a.premises).iter().chain(&entry.scope.assume);
+    let premises = entry.list(|a| &a.where_).iter().chain(&entry.scope.assume);
     let premises: Vec<Formula> = premises.map(|p| Formula::new(&p.value)).collect();
     let fresh = |node: &crate::latex::ast::Node| {
         let pattern = crate::semantics::pattern_of(&entry.scope, node);
@@ -316,7 +316,7 @@ fn kind(book: &Book, index: usize) -> String {
         "inequality"
     } else if a.maps.is_some() {
         "transformation"
-    } else if !a.given.is_empty() || !a.premises.is_empty() {
+    } else if !a.given.is_empty() || !a.where_.is_empty() {
         "derived"
     } else {
         "identity"

@@ -231,7 +231,7 @@ impl System {
             // A factor of two for |F| plus its bound.
             let sum: f64 = (0..n).map(|j| 2.0 * inverse[(i, j)].abs() * (sizes[j] - scale).exp2()).sum();
             let log2 = if scale == f64::NEG_INFINITY { f64::NEG_INFINITY } else { sum.log2() + scale };
-            values[u.symbol.index()] = Tracked::with_error_log2(x[i].clone(), log2);
+            values[u.symbol.index()] = Tracked::with_error(x[i].clone(), log2);
         }
     }
 }

@@ -157,6 +157,11 @@ impl Graph {
         s
     }
 
+    /// The number of symbols, derivatives included: [`SymId::index`] is below it.
+    pub fn symbol_count(&self) -> usize {
+        self.symbols.len()
+    }
+
     /// What is known of a symbol of this graph.
     pub fn info(&self, s: SymId) -> &SymbolInfo {
         &self.symbols[s.index()]

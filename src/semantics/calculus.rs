@@ -113,7 +113,7 @@ impl Elaborator<'_> {
         if basis.rotating {
             let angles = self.angles(&basis, span)?;
             // r = R1 R2 R3 applied to the unit vectors: the last turn is the innermost.
-            for (angle, axis) in angles.iter().zip(basis.order.chars()).rev() {
+            for (angle, axis) in angles.iter().zip(basis.order.chars().collect::<Vec<_>>()).rev() {
                 triad = triad.map(|v| turned(&mut self.world.graph, &v, *angle, axis));
             }
         }

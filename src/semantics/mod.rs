@@ -22,7 +22,7 @@ mod world;
 pub use elaborate::{Elaborator, Typed};
 pub use error::{Error, ErrorKind};
 pub use name::spelling;
-pub use scope::{Basis, Entry, EntryKind, Scope};
+pub use scope::{Basis, Entry, EntryKind, Scope, pattern_of};
 pub use statement::{
     Clause, Instance, Side, Statement, TypedLink, begins_with_relation, has_branches, mentions, relation_latex, statement, understand,
 };

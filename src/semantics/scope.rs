@@ -70,6 +70,11 @@ pub struct Entry {
 }
 
 impl Entry {
+    /// Whether it has a value of its own, rather than one that other symbols give it.
+    pub fn is_free(&self) -> bool {
+        matches!(self.kind, EntryKind::Scalar | EntryKind::Vector | EntryKind::Matrix { .. })
+    }
+
     /// Whether it is an angle.
     pub fn is_angle(&self) -> bool {
         matches!(self.unit.as_deref(), Some("rad" | "deg"))
@@ -286,4 +291,9 @@ fn subscript(node: &Node) -> Option<String> {
         Kind::Scripts { sub: Some(sub), .. } => Some(spelling(sub)),
         _ => None,
     }
+}
+
+/// The pattern of a name as it is used where a scope holds.
+pub fn pattern_of(scope: &Scope, node: &Node) -> String {
+    pattern(node, &|letter| scope.index(letter).is_some())
 }

@@ -157,7 +157,7 @@ pub fn begins_with_relation(node: &Node) -> bool {
 
 /// Collects the patterns of the declared symbols that a formula mentions.
 pub fn mentions(scope: &Scope, node: &Node, found: &mut std::collections::HashSet<String>) {
-    let pattern = super::scope::pattern(node, &|letter| scope.index(letter).is_some());
+    let pattern = super::scope::pattern_of(scope, node);
     if scope.get(&pattern).is_some() {
         found.insert(pattern);
     }
