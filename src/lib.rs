@@ -16,4 +16,5 @@
 //! | 1 | `document`, `latex`, `number` |
 
 pub mod check;
+pub mod document;
 pub mod latex;
