@@ -19,5 +19,5 @@ pub mod check;
 pub mod document;
 pub mod expr;
 pub mod latex;
-pub mod semantics;
 pub mod number;
+pub mod semantics;

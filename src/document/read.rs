@@ -1,0 +1,106 @@
+//! Opening a file of notes.
+
+use super::{Document, markdown};
+use miette::Diagnostic;
+use std::path::{Path, PathBuf};
+use thiserror::Error;
+
+/// Why a file could not be read as notes.
+#[derive(Debug, Error, Diagnostic)]
+pub enum ReadError {
+    /// There is no such file.
+    #[error("there is no file `{}`", path.display())]
+    #[diagnostic(code(document::no_such_file), help("check the spelling; paths are taken from the current folder"))]
+    NoSuchFile {
+        /// The path.
+        path: PathBuf,
+    },
+    /// The path is a folder's.
+    #[error("`{}` is a folder, not a file of notes", path.display())]
+    #[diagnostic(code(document::directory), help("name the files in it, for example `{}`", path.join("notes.md").display()))]
+    Directory {
+        /// The path.
+        path: PathBuf,
+    },
+    /// The file is there, but the system would not let it be read.
+    #[error("`{}` could not be read", path.display())]
+    #[diagnostic(code(document::unreadable), help("check that you may read it"))]
+    Unreadable {
+        /// The path.
+        path: PathBuf,
+        /// What the system says.
+        source: std::io::Error,
+    },
+    /// The file is not encoded in UTF-8.
+    #[error("`{}` is not UTF-8: line {line} has an invalid byte (byte {offset} of the file, counted from 0)", path.display())]
+    #[diagnostic(
+        code(document::not_utf8),
+        help("save it as UTF-8, or convert it: `iconv -f SHIFT_JIS -t UTF-8 OLD > NEW` (with the encoding it has)")
+    )]
+    NotUtf8 {
+        /// The path.
+        path: PathBuf,
+        /// The line of the first invalid byte, counted from 1.
+        line: usize,
+        /// The offset of the first invalid byte, counted from 0.
+        offset: usize,
+    },
+    /// The file holds nothing but blanks.
+    #[error("`{}` is empty", path.display())]
+    #[diagnostic(code(document::empty), help("is it the file you meant?"))]
+    Empty {
+        /// The path.
+        path: PathBuf,
+    },
+    /// The file holds no displayed equation, and nothing that looks like a damaged one.
+    #[error("`{}` holds no displayed equation", path.display())]
+    #[diagnostic(
+        code(document::no_equation),
+        help(
+            "equations are displays: `$$ E = mc^2 \\tag{{1}} $$`, `\\[ .. \\]` or `\\begin{{equation}} .. \\end{{equation}}`"
+        )
+    )]
+    NoEquation {
+        /// The path.
+        path: PathBuf,
+    },
+}
+
+/// Reads a file of notes.
+///
+/// # Errors
+///
+/// [`ReadError`], when there is nothing to work on. A file without an equation but with problems (its only display is
+/// not closed) is delivered, so that the problems are seen.
+pub fn read(path: &Path) -> Result<Document, ReadError> {
+    let bytes = std::fs::read(path).map_err(|error| not_read(path, error))?;
+    let source = String::from_utf8(bytes).map_err(|error| {
+        let offset = error.utf8_error().valid_up_to();
+        let line = error.as_bytes().iter().take(offset).filter(|byte| **byte == b'\n').count() + 1;
+        ReadError::NotUtf8 { path: path.to_owned(), line, offset }
+    })?;
+    if source.trim_matches(|c: char| c.is_whitespace() || c == '\u{feff}').is_empty() {
+        return Err(ReadError::Empty { path: path.to_owned() });
+    }
+    let document = parse(path, &source);
+    if document.equations().next().is_none() && document.problems.is_empty() {
+        return Err(ReadError::NoEquation { path: path.to_owned() });
+    }
+    Ok(document)
+}
+
+fn not_read(path: &Path, error: std::io::Error) -> ReadError {
+    let path = path.to_owned();
+    if path.is_dir() {
+        ReadError::Directory { path }
+    } else if error.kind() == std::io::ErrorKind::NotFound {
+        ReadError::NoSuchFile { path }
+    } else {
+        ReadError::Unreadable { path, source: error }
+    }
+}
+
+/// Reads notes from a text; `path` is only for messages and the document's name.
+pub fn parse(path: &Path, source: &str) -> Document {
+    markdown::parse(path, source)
+}
