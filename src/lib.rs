@@ -16,4 +16,6 @@
 //! | 1 | `document`, `latex`, `number` |
 
 pub mod check;
+pub mod integrator;
 pub mod latex;
+pub mod scene;
