@@ -18,4 +18,5 @@
 pub mod check;
 pub mod integrator;
 pub mod latex;
+pub mod report;
 pub mod scene;
