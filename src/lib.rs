@@ -18,6 +18,9 @@
 pub mod check;
 pub mod document;
 pub mod expr;
+pub mod integrator;
 pub mod latex;
 pub mod number;
+pub mod report;
+pub mod scene;
 pub mod semantics;

@@ -1,0 +1,71 @@
+//! How many equations have which verdict.
+
+use crate::check::verdict::{Judgement, Verdict};
+use serde::Serialize;
+
+/// All verdicts, in the order in which reports list them.
+pub(super) const ORDER: [Verdict; 7] = [
+    Verdict::Holds,
+    Verdict::Asymptotic,
+    Verdict::Definition,
+    Verdict::Statement,
+    Verdict::Fails,
+    Verdict::Undecided,
+    Verdict::Unreadable,
+];
+
+/// How many equations have which verdict.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+pub struct Counts {
+    /// All equations.
+    pub total: usize,
+    /// `holds`
+    pub holds: usize,
+    /// `asymptotic`
+    pub asymptotic: usize,
+    /// `definition`
+    pub definition: usize,
+    /// `statement`
+    pub statement: usize,
+    /// `fails`
+    pub fails: usize,
+    /// `undecided`
+    pub undecided: usize,
+    /// `unreadable`
+    pub unreadable: usize,
+    /// Those that fail while their correction holds.
+    pub errata: usize,
+    /// Those whose verdict is not as expected.
+    pub unexpected: usize,
+}
+
+impl Counts {
+    /// Counts judgements.
+    pub fn of<'a>(judgements: impl IntoIterator<Item = &'a Judgement>) -> Self {
+        let mut counts = Counts::default();
+        for judgement in judgements {
+            counts.total += 1;
+            *counts.slot(judgement.verdict) += 1;
+            counts.errata += usize::from(judgement.is_erratum());
+            counts.unexpected += usize::from(!judgement.as_expected);
+        }
+        counts
+    }
+
+    /// The number with a verdict.
+    pub fn with(mut self, verdict: Verdict) -> usize {
+        *self.slot(verdict)
+    }
+
+    fn slot(&mut self, verdict: Verdict) -> &mut usize {
+        match verdict {
+            Verdict::Holds => &mut self.holds,
+            Verdict::Asymptotic => &mut self.asymptotic,
+            Verdict::Definition => &mut self.definition,
+            Verdict::Statement => &mut self.statement,
+            Verdict::Fails => &mut self.fails,
+            Verdict::Undecided => &mut self.undecided,
+            Verdict::Unreadable => &mut self.unreadable,
+        }
+    }
+}

@@ -1,0 +1,189 @@
+//! A small run built by hand that has every verdict, strength and oddity: what the snapshots show.
+
+use super::{Chart, Run, charts};
+use crate::check::verdict::{
+    Assignment, Correction, Counterexample, DocumentReport, Judgement, LinkJudgement, Order, Strength, Verdict,
+};
+
+/// A link with a verdict and nothing else.
+pub(super) fn link(latex: &str, verdict: Verdict) -> LinkJudgement {
+    LinkJudgement {
+        latex: latex.into(),
+        verdict,
+        strength: None,
+        reason: None,
+        residual: None,
+        bits: None,
+        states: 0,
+        failing_states: 0,
+        counterexample: None,
+        order: None,
+    }
+}
+
+/// A link that holds.
+pub(super) fn agreeing(latex: &str) -> LinkJudgement {
+    LinkJudgement {
+        strength: Some(Strength::Numeric),
+        residual: Some(3.1e-32),
+        bits: Some(104),
+        states: 64,
+        ..link(latex, Verdict::Holds)
+    }
+}
+
+/// A judgement of one link.
+pub(super) fn judgement(label: &str, kind: &str, link: LinkJudgement) -> Judgement {
+    Judgement {
+        label: label.into(),
+        numbered: true,
+        section: "1 回転 <rotation>".into(),
+        line: 10 * label.chars().filter_map(|c| c.to_digit(10)).fold(0, |n, d| 10 * n + d as usize),
+        latex: link.latex.clone(),
+        kind: kind.into(),
+        verdict: link.verdict,
+        strength: link.strength,
+        bits: link.bits,
+        states: link.states,
+        as_printed: true,
+        reading: None,
+        given: Vec::new(),
+        assumptions: Vec::new(),
+        because: None,
+        reason: None,
+        counterexample: link.counterexample.clone(),
+        links: vec![link],
+        correction: None,
+        expect: None,
+        as_expected: true,
+        micros: 118,
+    }
+}
+
+fn erratum() -> Judgement {
+    let counterexample = Counterexample {
+        state: [(r"\theta", "0.70"), (r"I_0", "1.25"), (r"\dot{\varphi}", "-0.5")]
+            .map(|(symbol, value)| Assignment { symbol: symbol.into(), value: value.into() })
+            .into(),
+        lhs: "-0.5".into(),
+        rhs: "-0.32210884361884557".into(),
+        component: Some(r"\xi component".into()),
+    };
+    let failing = LinkJudgement {
+        strength: Some(Strength::Certified),
+        residual: Some(0.36),
+        bits: Some(1),
+        states: 64,
+        failing_states: 64,
+        counterexample: Some(counterexample),
+        ..link(r"\dot{\varphi} = \frac{L_z - I_1 \Omega \cos \theta}{I_0 \sin \theta}", Verdict::Fails)
+    };
+    let mended = r"\dot{\varphi} = \frac{L_z - I_1 \Omega \cos \theta}{I_0 \sin^2 \theta}";
+    Judgement {
+        given: vec!["1".into(), "99".into()],
+        assumptions: vec![r"\sin\theta \ne 0".into()],
+        reason: Some(r"the square of $\sin\theta$ is missing".into()),
+        correction: Some(Correction { latex: mended.into(), verdict: Verdict::Holds, links: vec![agreeing(mended)] }),
+        expect: Some(Verdict::Fails),
+        ..judgement("56", "derived", failing)
+    }
+}
+
+fn approximation() -> Judgement {
+    let order = Order {
+        small: r"\varepsilon".into(),
+        claimed: 1.0,
+        measured: 1.02,
+        residuals: vec![(0.1, 0.2), (0.05, 0.098), (0.025, 0.0483)],
+    };
+    let link = LinkJudgement {
+        strength: Some(Strength::Asymptotic),
+        order: Some(order),
+        states: 8,
+        ..link(r"\dot{\varphi} \approx \frac{mgl}{I_1 \Omega} \quad \text{歳差運動が遅い場合}", Verdict::Asymptotic)
+    };
+    judgement("72", "approximation", link)
+}
+
+fn chain() -> Judgement {
+    let differing = LinkJudgement {
+        strength: Some(Strength::Numeric),
+        residual: Some(1.7),
+        states: 64,
+        failing_states: 63,
+        reason: Some("the sides differ by a sign at every state but one".into()),
+        ..link(r"b = -c", Verdict::Fails)
+    };
+    let links = vec![agreeing("a = b"), differing];
+    Judgement {
+        latex: r"\begin{aligned} a &= b \\ &= -c \end{aligned}".into(),
+        verdict: Verdict::Fails,
+        as_expected: false,
+        section: r"2 `code` and $\omega'$".into(),
+        links,
+        ..judgement("56.1", "identity", agreeing("a = b"))
+    }
+}
+
+fn others() -> Vec<Judgement> {
+    let reasoned = |label: &str, latex: &str, verdict, reason: &str| Judgement {
+        reason: Some(reason.into()),
+        section: "3 残り".into(),
+        ..judgement(label, "derived", link(latex, verdict))
+    };
+    let mut shape = reasoned("83", r"\mathbf{L} = I_0", Verdict::Fails, "a vector and a scalar cannot be equal");
+    shape.strength = Some(Strength::Shape);
+    shape.as_expected = false;
+    let mut expected_otherwise = reasoned("90", "1 = 1", Verdict::Holds, "the misprint has been mended");
+    expected_otherwise.expect = Some(Verdict::Fails);
+    expected_otherwise.as_expected = false;
+    vec![
+        reasoned("80", r"\text{これから}", Verdict::Statement, "nothing is printed but words"),
+        reasoned("81", r"x = y", Verdict::Undecided, "the symbol $y$ is not declared"),
+        reasoned("82", r"\frac{a}{<b>", Verdict::Unreadable, "expected `}` at byte 11, found the end"),
+        shape,
+        expected_otherwise,
+    ]
+}
+
+/// The chart of the fixture: any chart, small.
+fn chart() -> Chart {
+    Chart {
+        id: "chart-fixture".into(),
+        title: "A chart".into(),
+        caption: "Of $x$ & nothing else.".into(),
+        svg: "<svg viewBox=\"0 0 1 1\" role=\"img\" aria-label=\"A chart\"></svg>\n".into(),
+        legend: vec![charts::LegendEntry { class: "line-1".into(), label: "$L_z$".into() }],
+        table: charts::Table { head: vec!["$x$".into(), "y".into()], rows: vec![vec!["1".into(), "2".into()]] },
+    }
+}
+
+/// The run.
+pub(super) fn run() -> Run {
+    let mut definition = judgement("1", "definition", link(r"\Omega \equiv \dot\psi", Verdict::Definition));
+    definition.because = Some("introduces $\\Omega$".into());
+    let mut identity = judgement("2", "identity", agreeing(r"\sin^2\theta + \cos^2\theta = 1"));
+    identity.strength = Some(Strength::Exact);
+    let mut damaged = judgement("3", "identity", agreeing(r"\frac{d\theta}{dt} = \dot\theta"));
+    damaged.latex = r"\frac{d\thetaa}{dt} = \dot\theta".into();
+    damaged.as_printed = false;
+    damaged.reading = Some(r"\frac{d\theta}{dt} = \dot\theta".into());
+    damaged.numbered = false;
+    let mut equations = vec![definition, identity, damaged, erratum(), approximation(), chain()];
+    equations.extend(others());
+    let first = DocumentReport {
+        name: "gyroscope".into(),
+        path: "notes/gyroscope.md".into(),
+        title: "ジャイロスコープ & <tops>".into(),
+        problems: vec!["line 7: a display is not closed: `$$ a`".into()],
+        equations,
+    };
+    let empty = DocumentReport {
+        name: "empty".into(),
+        path: "notes/empty.md".into(),
+        title: "Empty".into(),
+        problems: Vec::new(),
+        equations: Vec::new(),
+    };
+    Run { seed: 42, states: 64, precision: None, documents: vec![first, empty], charts: vec![chart()], micros: 31_400 }
+}

@@ -1,0 +1,233 @@
+//! LaTeX shown as MathML, which browsers draw themselves: no script, no fonts, no network.
+
+use super::text::escape;
+use katex::types::{OutputFormat, Settings};
+use katex::{KatexContext, render_to_string};
+use std::panic::{AssertUnwindSafe, catch_unwind};
+
+/// The nesting and the length past which a source is shown as it is: katex descends by recursion.
+pub(super) const DEEPEST: usize = 60;
+const LONGEST: usize = 40_000;
+
+/// The colour by which a part is marked on its way through katex; it leaves as the class `changed`.
+const MARK: &str = "#c0ffee";
+
+/// Renders LaTeX.
+pub(super) struct Renderer {
+    context: KatexContext,
+}
+
+impl Renderer {
+    pub(super) fn new() -> Self {
+        Renderer { context: KatexContext::default() }
+    }
+
+    /// A displayed formula: MathML, or the source itself where katex cannot read it.
+    pub(super) fn display(&self, latex: &str) -> String {
+        self.mathml(latex, true).unwrap_or_else(|| source(latex))
+    }
+
+    /// A formula within a line.
+    pub(super) fn inline(&self, latex: &str) -> String {
+        self.mathml(latex, false).unwrap_or_else(|| source(latex))
+    }
+
+    /// A displayed formula in which [`marked`] parts have the class `changed`; `None` where katex cannot read it.
+    pub(super) fn marked(&self, latex: &str) -> Option<String> {
+        self.mathml(latex, true)
+    }
+
+    /// Prose in which `$...$` is mathematics and `` `...` `` is code.
+    pub(super) fn prose(&self, text: &str) -> String {
+        let mut html = String::new();
+        let mut rest = text;
+        while let Some(begin) = rest.find(['$', '`']) {
+            let fence = if rest[begin..].starts_with('$') { '$' } else { '`' };
+            let inner = &rest[begin + 1..];
+            let Some(length) = inner.find(fence) else { break };
+            html.push_str(&escape(&rest[..begin]));
+            let body = &inner[..length];
+            html.push_str(&if fence == '$' { self.inline(body) } else { format!("<code>{}</code>", escape(body)) });
+            rest = &inner[length + 1..];
+        }
+        html + &escape(rest)
+    }
+
+    fn mathml(&self, latex: &str, display: bool) -> Option<String> {
+        if latex.len() > LONGEST || nesting(latex) > DEEPEST {
+            return None;
+        }
+        // Rows without an environment, and a side cut out of an alignment, are read as rows of `aligned`.
+        self.try_mathml(latex, display)
+            .or_else(|| self.try_mathml(&format!(r"\begin{{aligned}}{latex}\end{{aligned}}"), display))
+    }
+
+    fn try_mathml(&self, latex: &str, display: bool) -> Option<String> {
+        // Made anew for each formula, so that a `\gdef` in one does not reach the next.
+        let settings = Settings::builder().display_mode(display).output(OutputFormat::Mathml).max_size(20.0).build();
+        // A panic within katex costs one formula its typography, not the run its report.
+        let rendered = catch_unwind(AssertUnwindSafe(|| render_to_string(&self.context, latex, &settings)));
+        canonical(&rendered.ok()?.ok()?)
+    }
+}
+
+/// Marks a part of a source to be shown as changed.
+pub(super) fn marked(latex: &str) -> String {
+    format!(r"{{\textcolor{{{MARK}}}{{{latex}}}}}")
+}
+
+fn source(latex: &str) -> String {
+    format!("<code class=\"source\">{}</code>", escape(latex))
+}
+
+/// How deep groups and environments nest, by counting: commands with braceless arguments (`\sqrt\sqrt x`) count, too.
+pub(super) fn nesting(latex: &str) -> usize {
+    let (mut depth, mut deepest, mut run) = (0usize, 0, 0);
+    let mut chars = latex.chars().peekable();
+    while let Some(c) = chars.next() {
+        match c {
+            '{' | '[' => depth += 1,
+            '}' | ']' => depth = depth.saturating_sub(1),
+            _ => {}
+        }
+        if c == '\\' {
+            let mut name = String::new();
+            while let Some(letter) = chars.next_if(char::is_ascii_alphabetic) {
+                name.push(letter);
+            }
+            match name.as_str() {
+                "" => drop(chars.next()),
+                "begin" | "left" => depth += 1,
+                "end" | "right" => depth = depth.saturating_sub(1),
+                _ => run += 1,
+            }
+        } else if !matches!(c, ' ' | '^' | '_') {
+            run = 0;
+        }
+        deepest = deepest.max(depth + run);
+    }
+    deepest
+}
+
+/// The `math` element alone, its attributes in alphabetical order (katex keeps them in a hash table, whose order differs
+/// from run to run), without the copy of the source that katex adds, and with marks made classes.
+///
+/// `None` if there is no `math` element. katex escapes `<` and `>` in texts and attribute values, so each of them left
+/// begins or ends a tag.
+fn canonical(markup: &str) -> Option<String> {
+    let begin = markup.find("<math")?;
+    let end = markup.rfind("</math>")? + "</math>".len();
+    let mut html = String::with_capacity(markup.len());
+    let mut rest = markup.get(begin..end)?;
+    while let Some(open) = rest.find('<') {
+        html.push_str(&rest[..open]);
+        let length = rest[open..].find('>')? + 1;
+        let tag = &rest[open..open + length];
+        rest = &rest[open + length..];
+        if tag.starts_with("<annotation") {
+            rest = &rest[rest.find("</annotation>")? + "</annotation>".len()..];
+        } else if !matches!(tag, "<semantics>" | "</semantics>") {
+            html.push_str(&canonical_tag(tag));
+        }
+    }
+    html.push_str(rest);
+    Some(html)
+}
+
+fn canonical_tag(tag: &str) -> String {
+    let inner = tag.trim_start_matches('<').trim_end_matches('>').trim_end_matches('/');
+    let Some((name, mut rest)) = inner.split_once(' ') else { return tag.to_owned() };
+    let mut attributes = Vec::new();
+    while let Some((key, after)) = rest.split_once("=\"") {
+        let Some((value, after)) = after.split_once('"') else { break };
+        match (key.trim(), value) {
+            // HTML knows the element's namespace.
+            ("xmlns", _) => {}
+            ("mathcolor", MARK) => attributes.push(("class", "changed")),
+            attribute => attributes.push(attribute),
+        }
+        rest = after;
+    }
+    attributes.sort_unstable();
+    let attributes: String = attributes.iter().map(|(key, value)| format!(" {key}=\"{value}\"")).collect();
+    let close = if tag.ends_with("/>") { "/>" } else { ">" };
+    format!("<{name}{attributes}{close}")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn formulas_become_mathml_the_same_each_time() {
+        let latex = r"\dot{\varphi} = \left( \frac{mgl}{I_1 \Omega} \right)^2 \quad \text{歳差運動が遅い場合}";
+        let first = Renderer::new().display(latex);
+        assert!(first.starts_with("<math display=\"block\"><mrow>"), "{first}");
+        assert!(first.ends_with("</mrow></math>"), "{first}");
+        assert!(first.contains("歳差運動が遅い場合"));
+        assert!(!first.contains("annotation") && !first.contains("xmlns"));
+        for _ in 0..20 {
+            assert_eq!(Renderer::new().display(latex), first);
+        }
+    }
+
+    #[test]
+    fn unreadable_latex_is_shown_escaped() {
+        let html = Renderer::new().display(r"\frac{a}{ <script>alert(1)</script>");
+        assert_eq!(html, r#"<code class="source">\frac{a}{ &lt;script&gt;alert(1)&lt;/script&gt;</code>"#);
+    }
+
+    #[test]
+    fn mathematics_cannot_leave_its_element() {
+        for latex in [
+            r"\text{<script>alert(1)</script>}",
+            r#"\text{"><img src=x onerror=alert(1)>}"#,
+            r"\href{javascript:alert(1)}{x}",
+            r"\htmlStyle{position:fixed}{x}",
+            r"\url{javascript:alert(1)}",
+            r"\includegraphics{http://example.org/x.png}",
+            r#"\color{red" onclick="alert(1)}x"#,
+        ] {
+            let html = Renderer::new().display(latex);
+            let tags = html.split('<').skip(1).map(|t| t.split('>').next().unwrap_or_default());
+            for tag in tags {
+                for bad in ["script", "img", "onclick", "onerror", "href=", "src=", "position", " style="] {
+                    assert!(!tag.contains(bad), "{latex} gave <{tag}>");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn deep_or_long_sources_are_shown_as_they_are() {
+        let renderer = Renderer::new();
+        for latex in ["{".repeat(5_000) + &"}".repeat(5_000), r"\sqrt".repeat(5_000) + "x", "x^".repeat(50_000)] {
+            assert!(renderer.display(&latex).starts_with("<code"));
+        }
+        // As deep as is let through, in the ways that need the most stack.
+        let deep = [(r"\sqrt{", "}"), (r"\left(", r"\right)"), ("x^{", "}"), (r"\frac{1}{", "}")];
+        for (open, close) in deep {
+            let latex = open.repeat(DEEPEST) + "x" + &close.repeat(DEEPEST);
+            assert!(renderer.display(&latex).starts_with("<math"), "{open}");
+        }
+    }
+
+    #[test]
+    fn rows_without_environment_are_aligned() {
+        let html = Renderer::new().display(r"a &= b \\ &= c");
+        assert!(html.contains("<mtable"), "{html}");
+    }
+
+    #[test]
+    fn prose_may_hold_mathematics_and_code() {
+        let html = Renderer::new().prose("if $a<b$ & `x<y`, not 5$");
+        assert!(html.starts_with("if <math>"), "{html}");
+        assert!(html.ends_with(" &amp; <code>x&lt;y</code>, not 5$"), "{html}");
+    }
+
+    #[test]
+    fn marks_become_classes() {
+        let html = Renderer::new().marked(&format!("a = b^{}", marked("2"))).unwrap();
+        assert!(html.contains("<mstyle class=\"changed\"><mn>2</mn></mstyle>"), "{html}");
+    }
+}

@@ -1,0 +1,124 @@
+//! Telling: a finished run as one self-contained HTML page, as JSON for other tools, and as text for the terminal.
+//!
+//! The same run gives the same bytes, times apart: [`Options::times`] leaves those out.
+
+pub mod charts;
+mod counts;
+mod diff;
+pub mod html;
+pub mod json;
+mod math;
+mod svg;
+pub mod terminal;
+mod text;
+mod view;
+mod view_charts;
+
+pub use charts::Chart;
+pub use counts::Counts;
+
+use crate::check::verdict::DocumentReport;
+use std::path::{Path, PathBuf};
+
+/// Everything that a report is made from.
+#[derive(Clone, Debug)]
+pub struct Run {
+    /// The seed of the sampled states.
+    pub seed: u64,
+    /// The states at which each equation was evaluated, where it has no reason for another number.
+    pub states: usize,
+    /// The precision in bits that was asked for; `None` for the default.
+    pub precision: Option<u32>,
+    /// The documents in the order in which they were given.
+    pub documents: Vec<DocumentReport>,
+    /// The charts.
+    pub charts: Vec<Chart>,
+    /// The time that the whole run took, in microseconds.
+    pub micros: u64,
+}
+
+/// What a report may leave out.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Options {
+    /// Whether times are printed. Without them the same seed gives the same bytes.
+    pub times: bool,
+}
+
+impl Default for Options {
+    fn default() -> Self {
+        Options { times: true }
+    }
+}
+
+/// The files that [`write`] wrote.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Written {
+    /// The HTML page.
+    pub html: PathBuf,
+    /// The JSON file.
+    pub json: PathBuf,
+}
+
+/// Why a report could not be made.
+#[derive(Debug, thiserror::Error, miette::Diagnostic)]
+pub enum ReportError {
+    /// The directory does not exist and could not be created.
+    #[error("cannot create the report's directory `{}`", path.display())]
+    #[diagnostic(help("name another directory, or remove the file that stands in its place"))]
+    Directory {
+        /// The directory.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// A file could not be written; what stood there before is untouched.
+    #[error("cannot write `{}`", path.display())]
+    #[diagnostic(help("is the disk full, or the directory not writable? An older report there is left as it was"))]
+    Write {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: std::io::Error,
+    },
+    /// A template does not fit the data: a defect of Kenzan.
+    #[error("the report's template failed")]
+    #[diagnostic(help("this is a defect of Kenzan: please report it with the notes that caused it"))]
+    Template(#[from] tera::Error),
+    /// The data could not be written as JSON: a defect of Kenzan.
+    #[error("the report could not be written as JSON")]
+    #[diagnostic(help("this is a defect of Kenzan: please report it with the notes that caused it"))]
+    Json(#[from] serde_json::Error),
+}
+
+/// Writes `report.html` and `report.json` into the directory `out`, which is created if need be.
+///
+/// Both are made in full before either is written, and each is written beside its place and then renamed: nobody ever
+/// reads half a report.
+///
+/// # Errors
+/// [`ReportError`]
+pub fn write(run: &Run, out: &Path) -> Result<Written, ReportError> {
+    let options = Options::default();
+    let (html, json) = (html::render(run, options)?, json::render(run, options)?);
+    std::fs::create_dir_all(out).map_err(|source| ReportError::Directory { path: out.to_owned(), source })?;
+    let written = Written { html: out.join("report.html"), json: out.join("report.json") };
+    replace(&written.html, &html)?;
+    replace(&written.json, &json)?;
+    Ok(written)
+}
+
+/// Writes a file beside its place and renames it there.
+fn replace(path: &Path, contents: &str) -> Result<(), ReportError> {
+    // The process's number keeps two runs into one directory from writing the same file.
+    let beside = path.with_extension(format!("{}.tmp", std::process::id()));
+    std::fs::write(&beside, contents).and_then(|()| std::fs::rename(&beside, path)).map_err(|source| {
+        // What could not be finished is not left lying about; that it cannot be removed either adds nothing to the error.
+        let _ = std::fs::remove_file(&beside);
+        ReportError::Write { path: path.to_owned(), source }
+    })
+}
+
+#[cfg(test)]
+mod fixture;
+#[cfg(test)]
+mod tests;

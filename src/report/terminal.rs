@@ -1,0 +1,124 @@
+//! The summary for the terminal.
+
+use super::text::{duration, symbol, word};
+use super::{Counts, Options, Run, counts};
+use crate::check::verdict::{DocumentReport, Judgement, Verdict};
+use std::fmt::Write;
+
+/// The summary: for each document the counts, then each equation that fails, cannot be decided or read, or is not as
+/// expected, with its place and what it should read.
+pub fn render(run: &Run, colour: bool, options: Options) -> String {
+    let paint = Paint { colour };
+    let mut text = String::new();
+    for document in &run.documents {
+        // Writing to a string cannot fail.
+        let _ = summarize(&mut text, document, paint);
+    }
+    let counts = Counts::of(run.documents.iter().flat_map(|d| &d.equations));
+    let unexpected = match counts.unexpected {
+        0 => paint.verdict(Verdict::Holds, "all as expected"),
+        n => paint.verdict(Verdict::Fails, &format!("{n} not as expected")),
+    };
+    let time = if options.times { format!(" in {}", duration(run.micros)) } else { String::new() };
+    let equations = if counts.total == 1 { "equation" } else { "equations" };
+    let _ = writeln!(text, "{} {equations}{time}, seed {}: {unexpected}", counts.total, run.seed);
+    text
+}
+
+fn summarize(text: &mut String, document: &DocumentReport, paint: Paint) -> std::fmt::Result {
+    let counts = Counts::of(&document.equations);
+    writeln!(text, "{}", paint.bold(&format!("{}  {}", document.path, document.title)))?;
+    let shares: Vec<_> =
+        counts::ORDER.into_iter().filter(|v| counts.with(*v) > 0).map(|v| share(counts, v, paint)).collect();
+    writeln!(text, "  {}", if shares.is_empty() { "no displayed equations".to_owned() } else { shares.join("   ") })?;
+    for problem in &document.problems {
+        writeln!(text, "  {} {}: {problem}", paint.verdict(Verdict::Unreadable, "!"), document.path)?;
+    }
+    for judgement in document.equations.iter().filter(|j| is_shown(j)) {
+        line(text, document, judgement, paint)?;
+    }
+    writeln!(text)
+}
+
+/// `✗ 3 fails (1 erratum)`
+fn share(counts: Counts, verdict: Verdict, paint: Paint) -> String {
+    let errata = match (verdict, counts.errata) {
+        (Verdict::Fails, 1) => " (1 erratum)".to_owned(),
+        (Verdict::Fails, n) if n > 1 => format!(" ({n} errata)"),
+        _ => String::new(),
+    };
+    paint.verdict(verdict, &format!("{} {} {}{errata}", symbol(verdict), counts.with(verdict), word(verdict)))
+}
+
+fn is_shown(j: &Judgement) -> bool {
+    matches!(j.verdict, Verdict::Fails | Verdict::Undecided | Verdict::Unreadable) || !j.as_expected
+}
+
+fn line(text: &mut String, document: &DocumentReport, j: &Judgement, paint: Paint) -> std::fmt::Result {
+    let mark = paint.verdict(j.verdict, &format!("{} ({})", symbol(j.verdict), j.label));
+    write!(text, "  {mark} {}:{} {}", document.path, j.line, word(j.verdict))?;
+    if let (false, Some(expected)) = (j.as_expected, j.expect) {
+        write!(text, ", though it is expected that it {}", phrase(expected))?;
+    } else if j.expect == Some(j.verdict) {
+        write!(text, ", as expected")?;
+    }
+    let reason = j.reason.as_ref().or_else(|| j.links.iter().find(|l| l.verdict == j.verdict)?.reason.as_ref());
+    if let Some(reason) = reason {
+        write!(text, ": {}", one_line(reason))?;
+    }
+    writeln!(text)?;
+    if let Some(correction) = &j.correction {
+        let verdict = format!("which {}", phrase(correction.verdict));
+        writeln!(text, "      should read  {}  ({verdict})", one_line(&correction.latex))?;
+    } else if let Some(c) = &j.counterexample {
+        writeln!(text, "      for example  {}  against  {}", c.lhs, c.rhs)?;
+    }
+    Ok(())
+}
+
+/// A verdict as the end of a sentence.
+fn phrase(verdict: Verdict) -> &'static str {
+    match verdict {
+        Verdict::Statement => "has nothing to evaluate",
+        Verdict::Definition => "is a definition",
+        Verdict::Holds => "holds",
+        Verdict::Asymptotic => "holds asymptotically",
+        Verdict::Undecided => "cannot be decided",
+        Verdict::Unreadable => "cannot be read",
+        Verdict::Fails => "fails",
+    }
+}
+
+/// A text with its line breaks and runs of spaces made single spaces, and control characters left out: notes must not
+/// steer the terminal.
+fn one_line(text: &str) -> String {
+    let text: String = text.chars().map(|c| if c.is_control() { ' ' } else { c }).collect();
+    text.split_whitespace().collect::<Vec<_>>().join(" ")
+}
+
+#[derive(Clone, Copy)]
+struct Paint {
+    colour: bool,
+}
+
+impl Paint {
+    fn with(self, code: &str, text: &str) -> String {
+        if self.colour { format!("\x1b[{code}m{text}\x1b[0m") } else { text.to_owned() }
+    }
+
+    fn bold(self, text: &str) -> String {
+        self.with("1", &one_line(text))
+    }
+
+    fn verdict(self, verdict: Verdict, text: &str) -> String {
+        let code = match verdict {
+            Verdict::Holds => "32",
+            Verdict::Asymptotic => "36",
+            Verdict::Definition | Verdict::Statement => "2",
+            Verdict::Fails => "1;31",
+            Verdict::Undecided => "33",
+            Verdict::Unreadable => "35",
+        };
+        self.with(code, text)
+    }
+}

@@ -1,0 +1,3 @@
+//! The bodies that the notes talk about, and their motions.
+
+pub mod top;
