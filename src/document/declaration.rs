@@ -89,6 +89,8 @@ pub struct BasisDeclaration {
     pub order: Option<Spanned<String>>,
     /// Whether it moves.
     pub rotating: bool,
+    /// The symbol of its angular velocity.
+    pub rate: Option<Spanned<String>>,
     /// Whether a column of components without a basis of its own is in this basis.
     pub columns: bool,
     /// The table.
@@ -113,7 +115,7 @@ const SYMBOL_KEYS: [&str; 13] = [
     "value",
 ];
 
-const BASIS_KEYS: [&str; 6] = ["vectors", "axes", "euler", "order", "rotating", "columns"];
+const BASIS_KEYS: [&str; 7] = ["vectors", "axes", "euler", "order", "rotating", "rate", "columns"];
 
 /// Reads an annotation that holds declarations only.
 pub(super) fn declarations(table: &Table, span: Span, reader: &mut Reader) -> Declarations {
@@ -187,6 +189,7 @@ fn basis(name: &Spanned<String>, value: &Value, reader: &mut Reader) -> BasisDec
             "euler" => basis.euler = reader.three(key, value),
             "order" => basis.order = reader.text(key, value),
             "rotating" => basis.rotating = reader.bool(key, value),
+            "rate" => basis.rate = reader.text(key, value),
             "columns" => basis.columns = reader.bool(key, value),
             _ => reader.unknown(key, "a basis", &BASIS_KEYS),
         }
