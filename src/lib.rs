@@ -16,7 +16,9 @@
 //! | 1 | `document`, `latex`, `number` |
 
 pub mod check;
+pub mod cli;
 pub mod document;
+pub mod explain;
 pub mod expr;
 pub mod integrator;
 pub mod latex;
@@ -24,3 +26,4 @@ pub mod number;
 pub mod report;
 pub mod scene;
 pub mod semantics;
+pub mod verify;

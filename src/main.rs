@@ -1,1 +1,5 @@
-fn main() {}
+//! The command `kenzan`.
+
+fn main() -> std::process::ExitCode {
+    kenzan::cli::main()
+}

@@ -160,10 +160,9 @@ impl Book {
             for reference in references {
                 if self.find(&reference.value).is_none() {
                     let message = format!("there is no equation {}", reference.value);
-                    problems.push(
-                        Problem::error("kenzan::reference", message, reference.span.clone())
-                            .help("name a printed label, or for a display without a number the label before it with +1, +2 ..."),
-                    );
+                    problems.push(Problem::error("kenzan::reference", message, reference.span.clone()).help(
+                        "name a printed label, or for a display without a number the label before it with +1, +2 ...",
+                    ));
                 }
             }
             if let Some(circle) = self.circle(index)
@@ -208,7 +207,9 @@ impl Book {
         while let Some(&(at, version)) = chain.last() {
             let tree = self.entries[at].formula(version).tree.as_ref();
             match self.entries[at].previous {
-                Some(previous) if tree.is_ok_and(semantics::begins_with_relation) => chain.push((previous, Version::Corrected)),
+                Some(previous) if tree.is_ok_and(semantics::begins_with_relation) => {
+                    chain.push((previous, Version::Corrected))
+                }
                 _ => break,
             }
         }
@@ -220,9 +221,11 @@ impl Book {
         statement.ok_or_else(|| Unclear::Meaning(semantics::Error::unsupported("nothing is printed here", &(0..0))))
     }
 
-    /// Whether a symbol is mentioned by an equation before this one.
+    /// Whether a symbol is mentioned by an equation before this one that does not rest on this one.
     pub fn mentioned_before(&self, index: usize, pattern: &str) -> bool {
-        self.entries[..index].iter().any(|e| e.mentions.contains(pattern))
+        let rests =
+            |e: &Entry| e.list(|a| &a.given).iter().any(|g| self.find(&g.value).is_some_and(|(k, _)| k == index));
+        self.entries[..index].iter().any(|e| e.mentions.contains(pattern) && !rests(e))
     }
 }
 

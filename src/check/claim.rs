@@ -44,8 +44,6 @@ pub struct Claim {
     pub lhs_text: String,
     /// How the right side was read.
     pub rhs_text: String,
-    /// Whether a side is the word const.
-    pub constant: bool,
     /// The condition that an inequality is to be equivalent to.
     pub condition: Option<(Rel, Expr, Expr)>,
 }
@@ -103,12 +101,12 @@ impl Source<'_> {
         premises.keep_related(&world.graph, &targets);
         premises.close_in_time(&mut world.graph, &targets);
         let (lhs_text, rhs_text) = typed.first().map(|l| (l.lhs_text.clone(), l.rhs_text.clone())).unwrap_or_default();
-        Ok(Claim { world, rel: clause.rel, branches, premises, solve, small, lhs_text, rhs_text, constant, condition })
+        Ok(Claim { world, rel: clause.rel, branches, premises, solve, small, lhs_text, rhs_text, condition })
     }
 
     fn branches(&self, world: &mut World, scope: &Scope, clause: &Clause) -> Result<Vec<TypedLink>, Error> {
-        let both = semantics::has_branches(&clause.lhs)
-            || matches!(&clause.rhs, Side::Node(n) if semantics::has_branches(n));
+        let both =
+            semantics::has_branches(&clause.lhs) || matches!(&clause.rhs, Side::Node(n) if semantics::has_branches(n));
         let mut links = vec![semantics::understand(world, scope, clause, true)?];
         if both {
             links.push(semantics::understand(world, scope, clause, false)?);
@@ -132,7 +130,12 @@ impl Source<'_> {
         Ok(pairs)
     }
 
-    fn add_text(&self, world: &mut World, text: &Spanned<String>, pairs: &mut Vec<(Expr, Expr)>) -> Result<(), Obstacle> {
+    fn add_text(
+        &self,
+        world: &mut World,
+        text: &Spanned<String>,
+        pairs: &mut Vec<(Expr, Expr)>,
+    ) -> Result<(), Obstacle> {
         let obstacle = |message: String| Obstacle::Premise(text.value.clone(), message);
         let tree = Formula::new(&text.value).tree.map_err(|e| obstacle(e.message))?;
         let statement = semantics::statement(&tree, None).map_err(|e| obstacle(e.message))?;
@@ -161,7 +164,13 @@ impl Source<'_> {
     }
 
     /// Adds what a clause states, where it is an equation.
-    fn add_clause(&self, world: &mut World, scope: &Scope, clause: &Clause, pairs: &mut Vec<(Expr, Expr)>) -> Result<(), Error> {
+    fn add_clause(
+        &self,
+        world: &mut World,
+        scope: &Scope,
+        clause: &Clause,
+        pairs: &mut Vec<(Expr, Expr)>,
+    ) -> Result<(), Error> {
         if !matches!(clause.rel, Rel::Eq | Rel::Equiv | Rel::Implies) {
             return Ok(());
         }
@@ -186,7 +195,8 @@ impl Source<'_> {
         let mut clauses = Vec::new();
         for reference in self.book.entries[self.index].list(|a| &a.solves) {
             let obstacle = |message: String| Obstacle::Premise(format!("({})", reference.value), message);
-            let (index, part) = self.book.find(&reference.value).ok_or_else(|| obstacle("there is no such equation".into()))?;
+            let (index, part) =
+                self.book.find(&reference.value).ok_or_else(|| obstacle("there is no such equation".into()))?;
             let statement = self.book.statement(index, Version::Corrected).map_err(|u| obstacle(unclear_text(&u)))?;
             let scope = self.book.entries[index].scope.as_ref();
             let head = statement.head.clone();
@@ -229,7 +239,9 @@ impl Source<'_> {
 
     /// The small parameter: a symbol, or the reciprocal of one that grows.
     fn small(&self, world: &mut World) -> Result<Option<(SymId, bool)>, Obstacle> {
-        let Some(text) = self.book.entries[self.index].annotation().and_then(|a| a.small.as_ref()) else { return Ok(None) };
+        let Some(text) = self.book.entries[self.index].annotation().and_then(|a| a.small.as_ref()) else {
+            return Ok(None);
+        };
         let value = self.symbol(world, text)?;
         let symbol = |e: Expr| match *world.graph.node(e) {
             Node::Symbol(s) => Some((s, false)),
@@ -249,7 +261,9 @@ impl Source<'_> {
     }
 
     fn condition(&self, world: &mut World) -> Result<Option<(Rel, Expr, Expr)>, Obstacle> {
-        let Some(text) = self.book.entries[self.index].annotation().and_then(|a| a.iff.as_ref()) else { return Ok(None) };
+        let Some(text) = self.book.entries[self.index].annotation().and_then(|a| a.iff.as_ref()) else {
+            return Ok(None);
+        };
         let obstacle = |message: String| Obstacle::Premise(text.value.clone(), message);
         let tree = Formula::new(&text.value).tree.map_err(|e| obstacle(e.message))?;
         let statement = semantics::statement(&tree, None).map_err(|e| obstacle(e.message))?;
@@ -308,6 +322,14 @@ pub fn unclear_text(unclear: &Unclear) -> String {
     }
 }
 
+/// Why a claim could not be made, in words.
+pub fn obstacle_text(obstacle: &Obstacle) -> String {
+    match obstacle {
+        Obstacle::Link(error) => error.message.clone(),
+        Obstacle::Premise(name, message) => format!("the premise {name} cannot be used: {message}"),
+    }
+}
+
 fn pairs(world: &mut World, link: &TypedLink, constant: bool) -> Branch {
     let graph = &mut world.graph;
     if constant {
@@ -327,7 +349,9 @@ fn pairs(world: &mut World, link: &TypedLink, constant: bool) -> Branch {
 
 /// A tree in which every occurrence of a variable is replaced by something in brackets.
 fn replaced(node: &ast::Node, variable: &ast::Node, by: &ast::Node) -> ast::Node {
-    if node.kind == variable.kind || semantics::spelling(node) == semantics::spelling(variable) && !semantics::spelling(node).is_empty() {
+    if node.kind == variable.kind
+        || semantics::spelling(node) == semantics::spelling(variable) && !semantics::spelling(node).is_empty()
+    {
         let body = Box::new(by.clone());
         let kind = ast::Kind::Group { open: ast::Delim::Paren, close: ast::Delim::Paren, body };
         return ast::Node::new(kind, node.span.clone());

@@ -42,11 +42,7 @@ fn finding<N: Real>(value: &PairValue<N>, scale_log2: f64) -> Finding {
         return Finding::Differ((size - scale_log2).exp2());
     }
     let bits = scale_log2 - value.error_log2().max(size);
-    if scale_log2 == f64::NEG_INFINITY || bits >= LEAST_BITS {
-        Finding::Agree(bits.min(1e6))
-    } else {
-        Finding::Open
-    }
+    if scale_log2 == f64::NEG_INFINITY || bits >= LEAST_BITS { Finding::Agree(bits.min(1e6)) } else { Finding::Open }
 }
 
 /// The findings of all pairs of a branch; vectors are measured by their largest component.
@@ -94,7 +90,12 @@ pub fn equality(judgement: LinkJudgement, mut claim: Claim, name: &str, options:
     decide::<Df64>(judgement, &sampler, &states, &())
 }
 
-fn decide<N: Real>(mut judgement: LinkJudgement, sampler: &Sampler, states: &[State], cx: &N::Context) -> LinkJudgement {
+fn decide<N: Real>(
+    mut judgement: LinkJudgement,
+    sampler: &Sampler,
+    states: &[State],
+    cx: &N::Context,
+) -> LinkJudgement {
     let mut tally = Tally { branch_hit: vec![false; sampler.claim.branches.len()], ..Tally::default() };
     let mut work = Workspace::default();
     for (k, state) in states.iter().enumerate() {
@@ -120,13 +121,15 @@ fn decide<N: Real>(mut judgement: LinkJudgement, sampler: &Sampler, states: &[St
         judgement.strength = Some(Strength::Numeric);
         judgement.reason = Some(format!("the {sign} sign never gives a solution"));
     } else if tally.open * 4 > states.len() || tally.states == 0 {
-        judgement.reason = Some(format!("the rounding errors hide the answer at {} of {} states", tally.open, states.len()));
+        judgement.reason =
+            Some(format!("the rounding errors hide the answer at {} of {} states", tally.open, states.len()));
     } else {
         judgement.verdict = Verdict::Holds;
         judgement.strength = Some(Strength::Numeric);
         judgement.bits = tally.bits.map(|b| b as u32);
         if tally.open > 0 {
-            judgement.reason = Some(format!("{} states were left out: their rounding errors are too large", tally.open));
+            judgement.reason =
+                Some(format!("{} states were left out: their rounding errors are too large", tally.open));
         }
     }
     judgement

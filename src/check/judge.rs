@@ -1,12 +1,13 @@
 //! The judgement on an equation: each link of its chain is claimed, evaluated and decided; the worst decides.
 
+use std::collections::HashSet;
 use std::time::Instant;
 
-use crate::latex::ast::Rel;
+use crate::latex::ast::{Kind, Node, Rel};
 use crate::semantics::{Clause, ErrorKind, Scope, Side};
 
 use super::book::{Book, Formula, Unclear, Version};
-use super::claim::{Claim, Obstacle, Source};
+use super::claim::{Claim, Obstacle, Source, obstacle_text};
 use super::decide;
 use super::order;
 use super::verdict::{Correction, Judgement, LinkJudgement, Strength, Verdict};
@@ -32,9 +33,28 @@ impl Default for Options {
 pub fn judge(book: &Book, index: usize, options: &Options) -> Judgement {
     let begin = Instant::now();
     let entry = &book.entries[index];
+    let mut judgement = blank(book, index);
+    let outcome = judge_version(book, index, Version::Printed, options);
+    judgement.verdict = outcome.verdict;
+    judgement.reason = outcome.reason;
+    judgement.links = outcome.links;
+    judgement.summarise();
+    if let Some(correction) = &entry.correction {
+        let outcome = judge_version(book, index, Version::Corrected, options);
+        judgement.correction =
+            Some(Correction { latex: correction.latex.clone(), verdict: outcome.verdict, links: outcome.links });
+    }
+    judgement.as_expected = as_expected(&judgement);
+    judgement.micros = u64::try_from(begin.elapsed().as_micros()).unwrap_or(u64::MAX);
+    judgement
+}
+
+/// The judgement on an equation before anything is judged: what the notes and the annotation say.
+pub fn blank(book: &Book, index: usize) -> Judgement {
+    let entry = &book.entries[index];
     let equation = &entry.equation;
     let annotation = entry.annotation();
-    let mut judgement = Judgement {
+    Judgement {
         label: equation.label.clone(),
         numbered: equation.numbered,
         section: entry.section.clone(),
@@ -57,20 +77,7 @@ pub fn judge(book: &Book, index: usize, options: &Options) -> Judgement {
         expect: annotation.and_then(|a| a.expect.as_ref()).and_then(|e| expected(&e.value)),
         as_expected: false,
         micros: 0,
-    };
-    let outcome = judge_version(book, index, Version::Printed, options);
-    judgement.verdict = outcome.verdict;
-    judgement.reason = outcome.reason;
-    judgement.links = outcome.links;
-    judgement.summarise();
-    if let Some(correction) = &entry.correction {
-        let outcome = judge_version(book, index, Version::Corrected, options);
-        judgement.correction =
-            Some(Correction { latex: correction.latex.clone(), verdict: outcome.verdict, links: outcome.links });
     }
-    judgement.as_expected = as_expected(&judgement);
-    judgement.micros = u64::try_from(begin.elapsed().as_micros()).unwrap_or(u64::MAX);
-    judgement
 }
 
 /// A printed misprint that is expected, and mended by a correction that holds, is no surprise; anything else that does
@@ -112,12 +119,18 @@ impl Outcome {
 fn judge_version(book: &Book, index: usize, version: Version, options: &Options) -> Outcome {
     let entry = &book.entries[index];
     if let Some(circle) = book.circle(index) {
-        return Outcome::without_links(Verdict::Undecided, format!("the premises go in a circle: {}", circle.join(" → ")));
+        return Outcome::without_links(
+            Verdict::Undecided,
+            format!("the premises go in a circle: {}", circle.join(" → ")),
+        );
     }
     let statement = match book.statement(index, version) {
         Ok(statement) => statement,
         Err(Unclear::Latex(e)) => {
-            return Outcome::without_links(Verdict::Unreadable, place(&entry.formula(version).latex, &e.message, &e.span, e.help.as_deref()));
+            return Outcome::without_links(
+                Verdict::Unreadable,
+                place(&entry.formula(version).latex, &e.message, &e.span, e.help.as_deref()),
+            );
         }
         Err(Unclear::Meaning(e)) => return Outcome::without_links(Verdict::Undecided, e.message),
     };
@@ -185,17 +198,22 @@ fn defines(book: &Book, index: usize, clause: &Clause) -> bool {
     let entry = &book.entries[index];
     let premises = entry.list(|a| &a.where_).iter().chain(&entry.scope.assume);
     let premises: Vec<Formula> = premises.map(|p| Formula::new(&p.value)).collect();
-    let fresh = |node: &crate::latex::ast::Node| {
+    let new_name = |node: &Node| {
         let pattern = crate::semantics::pattern_of(&entry.scope, node);
         entry.scope.get(&pattern).is_some_and(crate::semantics::Entry::is_free)
             && !book.mentioned_before(index, &pattern)
             && !premises.iter().any(|f| {
-                let mut found = Default::default();
+                let mut found = HashSet::new();
                 if let Ok(tree) = &f.tree {
                     crate::semantics::mentions(&entry.scope, tree, &mut found);
                 }
                 found.contains(&pattern)
             })
+    };
+    let fresh = |node: &Node| match &node.kind {
+        // A column of new names.
+        Kind::Matrix { rows, .. } => rows.iter().flatten().all(new_name),
+        _ => new_name(node),
     };
     let both_sides = match &clause.rhs {
         Side::Node(rhs) => fresh(&clause.lhs) || fresh(rhs),
@@ -205,11 +223,11 @@ fn defines(book: &Book, index: usize, clause: &Clause) -> bool {
 }
 
 fn definition(clause: &Clause) -> LinkJudgement {
-    LinkJudgement { verdict: Verdict::Definition, ..blank(clause) }
+    LinkJudgement { verdict: Verdict::Definition, ..unjudged(clause) }
 }
 
 /// A judgement on a clause that says nothing yet.
-fn blank(clause: &Clause) -> LinkJudgement {
+fn unjudged(clause: &Clause) -> LinkJudgement {
     LinkJudgement {
         latex: clause.latex(),
         verdict: Verdict::Undecided,
@@ -232,11 +250,12 @@ fn judge_link(
     latex: &str,
     options: &Options,
 ) -> LinkJudgement {
-    let mut judgement = blank(clause);
+    let mut judgement = unjudged(clause);
     let mapped = match clause.rel {
         Rel::To => match source.mapped(clause) {
             None => {
-                judgement.reason = Some("an arrow needs to be told what map it stands for: maps = 'X \\mapsto ...'".into());
+                judgement.reason =
+                    Some("an arrow needs to be told what map it stands for: maps = 'X \\mapsto ...'".into());
                 return judgement;
             }
             Some(Err(obstacle)) => return obstructed(judgement, &obstacle, latex),
@@ -279,13 +298,6 @@ fn obstructed(mut judgement: LinkJudgement, obstacle: &Obstacle, latex: &str) ->
         judgement.strength = Some(Strength::Shape);
     }
     judgement
-}
-
-fn obstacle_text(obstacle: &Obstacle) -> String {
-    match obstacle {
-        Obstacle::Link(error) => error.message.clone(),
-        Obstacle::Premise(name, message) => format!("the premise {name} cannot be used: {message}"),
-    }
 }
 
 /// A message with the piece of LaTeX it is about.

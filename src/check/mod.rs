@@ -3,6 +3,7 @@
 mod book;
 mod claim;
 mod decide;
+pub mod inspect;
 mod judge;
 mod order;
 mod premises;
@@ -12,4 +13,4 @@ mod system;
 pub mod verdict;
 
 pub use book::{Book, Entry, Formula, Unclear, Version};
-pub use judge::{Options, judge};
+pub use judge::{Options, blank, judge};

@@ -26,7 +26,13 @@ const SHORTFALL: f64 = 0.1;
 type Course = Vec<(f64, f64)>;
 
 /// Judges an approximation. Without a claimed order, any positive one will do.
-pub fn judge(mut judgement: LinkJudgement, mut claim: Claim, claimed: Option<f64>, name: &str, options: &Options) -> LinkJudgement {
+pub fn judge(
+    mut judgement: LinkJudgement,
+    mut claim: Claim,
+    claimed: Option<f64>,
+    name: &str,
+    options: &Options,
+) -> LinkJudgement {
     let Some((small, reciprocal)) = claim.small else { return judgement };
     let mut random = Random::new(options.seed, name);
     let sampler = match Sampler::new(&mut claim, &mut random, &[]) {
@@ -104,7 +110,11 @@ fn course(sampler: &Sampler, small: SymId, reciprocal: bool, random: &mut Random
     for k in 0..=HALVINGS {
         let factor = 1_i64 << k;
         let base = Decimal::near(first_value, 6);
-        let value = if reciprocal { Decimal { num: base.num * factor, den: base.den } } else { Decimal { num: base.num, den: base.den * factor } };
+        let value = if reciprocal {
+            Decimal { num: base.num * factor, den: base.den }
+        } else {
+            Decimal { num: base.num, den: base.den * factor }
+        };
         state.free[place] = value;
         state.values[small.index()] = value.to_f64();
         let from = sampler.hinted(&state, last_start.clone());

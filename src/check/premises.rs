@@ -13,6 +13,8 @@ const MOST_RESIDUALS: usize = 300;
 pub struct Premises {
     /// A symbol (or derivative) and what it is: holds for its further derivatives, too.
     definitions: BTreeMap<SymId, Expr>,
+    /// Definitions of derivatives that gave way to a definition of the symbol itself.
+    demoted: Vec<(Expr, Expr)>,
     /// Expressions that vanish.
     pub residuals: Vec<Expr>,
 }
@@ -30,6 +32,7 @@ impl Premises {
                 rest.push((a, b));
             }
         }
+        rest.append(&mut premises.demoted);
         for (a, b) in rest {
             let residual = graph.sub(a, b);
             let residual = premises.resolve(graph, residual);
@@ -55,6 +58,15 @@ impl Premises {
         let own = |x: &SymId| graph.info(*x).base == info.base && graph.info(*x).order >= info.order;
         if graph.symbols(&[resolved]).iter().any(own) {
             return false;
+        }
+        // A definition of a higher derivative becomes a condition on this one.
+        let higher: Vec<SymId> =
+            self.definitions.keys().copied().filter(|d| graph.info(*d).base == info.base).collect();
+        for d in higher {
+            if let Some(value) = self.definitions.remove(&d) {
+                let symbol = graph.sym(d);
+                self.demoted.push((symbol, value));
+            }
         }
         self.definitions.insert(s, resolved);
         // What was resolved before may mention the symbol.

@@ -74,7 +74,12 @@ impl<'c> Sampler<'c> {
     }
 
     /// Draws states until enough satisfy the premises; the last eighth near the ends of the ranges.
-    pub fn states(&self, count: usize, random: &mut Random, fixed: &BTreeMap<SymId, Decimal>) -> Result<Vec<State>, NoState> {
+    pub fn states(
+        &self,
+        count: usize,
+        random: &mut Random,
+        fixed: &BTreeMap<SymId, Decimal>,
+    ) -> Result<Vec<State>, NoState> {
         let mut states = Vec::with_capacity(count);
         let mut last = NoState::Diverges;
         for k in 0..count {
@@ -117,7 +122,12 @@ impl<'c> Sampler<'c> {
     }
 
     /// The values of all pairs at a state, branch by branch; `None` where the refinement fails.
-    pub fn evaluate<N: Real>(&self, state: &State, cx: &N::Context, work: &mut Workspace<Tracked<N>>) -> Option<Vec<Vec<PairValue<N>>>> {
+    pub fn evaluate<N: Real>(
+        &self,
+        state: &State,
+        cx: &N::Context,
+        work: &mut Workspace<Tracked<N>>,
+    ) -> Option<Vec<Vec<PairValue<N>>>> {
         let values = self.system.refine::<N>(state, cx)?;
         let inputs: Vec<Tracked<N>> = self.tape.inputs().iter().map(|s| values[s.index()].clone()).collect();
         let out = self.tape.eval(&inputs, cx, work);
@@ -136,7 +146,13 @@ impl<'c> Sampler<'c> {
     }
 
     /// A state for the reader, with the values of a pair's sides.
-    pub fn counterexample<N: Real>(&self, state: &State, cx: &N::Context, pair: &Pair, value: &PairValue<N>) -> Counterexample {
+    pub fn counterexample<N: Real>(
+        &self,
+        state: &State,
+        cx: &N::Context,
+        pair: &Pair,
+        value: &PairValue<N>,
+    ) -> Counterexample {
         let world = &self.claim.world;
         let mentioned = self.tape.inputs();
         let mut assignments: Vec<Assignment> = Vec::new();

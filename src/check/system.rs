@@ -72,7 +72,13 @@ pub enum NoState {
 
 impl System {
     /// Chooses what to solve for and compiles the residuals. `targets` are what will be evaluated at the states.
-    pub fn new(world: &mut World, residuals: &[Expr], targets: &[Expr], wish: &Wish, random: &mut Random) -> Result<Self, NoState> {
+    pub fn new(
+        world: &mut World,
+        residuals: &[Expr],
+        targets: &[Expr],
+        wish: &Wish,
+        random: &mut Random,
+    ) -> Result<Self, NoState> {
         let mut candidates: Vec<SymId> =
             world.graph.symbols(residuals).into_iter().filter(|s| !wish.free.contains(s)).collect();
         candidates.sort_by_key(|s| preference(&world.graph, wish.solve, *s));
@@ -222,7 +228,13 @@ impl System {
     }
 
     /// The unknowns with their errors: |J⁻¹| (|F| + bound on F), in powers of two so that nothing underflows.
-    fn bound_errors<N: Real>(&self, values: &mut [Tracked<N>], x: &[N], lu: &LU<f64, Dyn, Dyn>, residual: &[Tracked<N>]) {
+    fn bound_errors<N: Real>(
+        &self,
+        values: &mut [Tracked<N>],
+        x: &[N],
+        lu: &LU<f64, Dyn, Dyn>,
+        residual: &[Tracked<N>],
+    ) {
         let sizes: Vec<f64> = residual.iter().map(|r| r.value().log2_abs().max(r.error_log2())).collect();
         let scale = sizes.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let n = self.unknowns.len();
@@ -237,7 +249,11 @@ impl System {
 }
 
 /// The step J⁻¹F as doubles times 2^scale, so that residuals below the range of doubles are no obstacle.
-fn scaled_step<N: Real>(lu: &LU<f64, Dyn, Dyn>, residual: &[Tracked<N>], cx: &N::Context) -> Option<(DVector<f64>, i32)> {
+fn scaled_step<N: Real>(
+    lu: &LU<f64, Dyn, Dyn>,
+    residual: &[Tracked<N>],
+    cx: &N::Context,
+) -> Option<(DVector<f64>, i32)> {
     let largest = residual.iter().map(|r| r.value().log2_abs()).fold(f64::NEG_INFINITY, f64::max);
     if largest == f64::NEG_INFINITY {
         return Some((DVector::zeros(residual.len()), 0));

@@ -1,6 +1,6 @@
 //! The LaTeX of one equation, read into a syntax tree in which every node knows its bytes.
 
 pub mod ast;
-mod walk;
 mod stub;
+mod walk;
 pub use stub::*;

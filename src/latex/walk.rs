@@ -14,7 +14,9 @@ impl Node {
             Kind::Scripts { base, sub, sup, .. } => {
                 std::iter::once(base.as_ref()).chain(sub.as_deref()).chain(sup.as_deref()).collect()
             }
-            Kind::Product { first, rest } => std::iter::once(first.as_ref()).chain(rest.iter().map(|(_, n)| n)).collect(),
+            Kind::Product { first, rest } => {
+                std::iter::once(first.as_ref()).chain(rest.iter().map(|(_, n)| n)).collect()
+            }
             Kind::Juxt(nodes) | Kind::List(nodes) | Kind::Rows(nodes) => nodes.iter().collect(),
             Kind::Sum(terms) => terms.iter().map(|t| &t.node).collect(),
             Kind::Frac(a, b) => vec![a, b],

@@ -59,7 +59,10 @@ impl Elaborator<'_> {
                 let x = self.value(variable)?;
                 let x = self.scalar(&x, span)?;
                 let crate::expr::Node::Symbol(id) = *self.world.graph.node(x) else {
-                    return Err(Error::unsupported(format!("a derivative with respect to {name}, which is no symbol"), span));
+                    return Err(Error::unsupported(
+                        format!("a derivative with respect to {name}, which is no symbol"),
+                        span,
+                    ));
                 };
                 value = value.map(&mut |e| self.world.graph.diff(e, id));
             }
@@ -96,7 +99,8 @@ impl Elaborator<'_> {
 
     fn basis(&self, name: &str, span: &Span) -> Result<Basis> {
         self.scope.basis(name).cloned().ok_or_else(|| {
-            Error::undeclared(format!("undeclared basis {name}"), span).with_help(format!("declare it under [basis.{name}]"))
+            Error::undeclared(format!("undeclared basis {name}"), span)
+                .with_help(format!("declare it under [basis.{name}]"))
         })
     }
 
@@ -131,7 +135,11 @@ impl Elaborator<'_> {
                 }
                 None => {
                     let tex = format!("\\alpha_{{{}\\text{{ of {}}}}}", k + 1, basis.name);
-                    let id = self.world.symbol(&tex.clone(), true, || Facts { tex, range: Some([0.3, 1.2]), integer: false });
+                    let id = self.world.symbol(&tex.clone(), true, || Facts {
+                        tex,
+                        range: Some([0.3, 1.2]),
+                        integer: false,
+                    });
                     self.world.graph.sym(id)
                 }
             });
@@ -170,8 +178,11 @@ impl Elaborator<'_> {
     pub(super) fn as_column(&mut self, vector: &Value, span: &Span) -> Result<Value> {
         let Value::Vector(v) = vector else { return Ok(vector.clone()) };
         let Some(basis) = self.scope.column_basis().map(|b| b.name.clone()) else {
-            return Err(Error::undeclared("a vector meets a matrix, and no basis says which components are meant", span)
-                .with_help("set columns = true in the [basis.NAME] that columns are written in"));
+            return Err(Error::undeclared(
+                "a vector meets a matrix, and no basis says which components are meant",
+                span,
+            )
+            .with_help("set columns = true in the [basis.NAME] that columns are written in"));
         };
         let triad = self.triad(&basis, span)?;
         let data = triad.iter().map(|e| value::dot3(&mut self.world.graph, v, e)).collect();
@@ -195,7 +206,10 @@ impl Elaborator<'_> {
             let name = spelling(letter);
             let (from, to) = (self.integer(&link.rhs)?, self.integer(last)?);
             if to.saturating_sub(from) > 10_000 {
-                return Err(Error::unsupported(format!("a sum of {} terms is too long", to.saturating_sub(from)), span));
+                return Err(Error::unsupported(
+                    format!("a sum of {} terms is too long", to.saturating_sub(from)),
+                    span,
+                ));
             }
             return Ok((from..=to).map(|v| vec![(name.clone(), v)]).collect());
         }

@@ -46,7 +46,9 @@ impl<'w> Elaborator<'w> {
     pub fn value(&mut self, node: &Node) -> Result<Typed> {
         match &node.kind {
             Kind::Number(text) => self.number(text, &node.span),
-            Kind::Symbol(_) | Kind::Styled(..) | Kind::Accent(..) | Kind::Scripts { .. } | Kind::Dots(..) => self.atom(node),
+            Kind::Symbol(_) | Kind::Styled(..) | Kind::Accent(..) | Kind::Scripts { .. } | Kind::Dots(..) => {
+                self.atom(node)
+            }
             Kind::Juxt(_) | Kind::Product { .. } | Kind::Frac(..) => self.product(node),
             Kind::Sum(terms) => self.terms(terms),
             Kind::Sqrt { index, body } => self.root(index.as_deref(), body, &node.span),
@@ -57,9 +59,8 @@ impl<'w> Elaborator<'w> {
             Kind::Function(name) => Err(Error::unsupported(format!("\\{name} has no argument here"), &node.span)),
             Kind::BigOp(_) => Err(Error::unsupported("this operator has nothing to act on", &node.span)),
             Kind::Empty => Err(Error::unsupported("an expression is missing here", &node.span)),
-            Kind::Text(text) => {
-                Err(Error::unsupported(format!("words within a formula: {text}"), &node.span).with_help("give the formula a `reading` without the words"))
-            }
+            Kind::Text(text) => Err(Error::unsupported(format!("words within a formula: {text}"), &node.span)
+                .with_help("give the formula a `reading` without the words")),
             Kind::Ellipsis => Err(Error::unsupported("an ellipsis stands for terms that are not printed", &node.span)
                 .with_help("give the formula a `reading` in which the terms are written out or summed")),
             Kind::Factorial(..) => Err(Error::unsupported("factorials are not evaluated yet", &node.span)),
@@ -158,7 +159,10 @@ impl<'w> Elaborator<'w> {
         let mut text = Vec::new();
         for row in rows {
             if row.len() != cols {
-                return Err(Error::shape(format!("a row of {} entries in a matrix of {cols} columns", row.len()), span));
+                return Err(Error::shape(
+                    format!("a row of {} entries in a matrix of {cols} columns", row.len()),
+                    span,
+                ));
             }
             for cell in row {
                 let entry = self.value(cell)?;
@@ -199,7 +203,9 @@ impl<'w> Elaborator<'w> {
                 let value = self.time_derivative(&inner.value, u32::from(*n));
                 Ok(Typed::new(value, format!("\\{}ot{{{}}}", "d".repeat(usize::from(*n)), inner.text)))
             }
-            Kind::Scripts { base, primes, sub, sup } => self.scripts(node, base, *primes, sub.as_deref(), sup.as_deref()),
+            Kind::Scripts { base, primes, sub, sup } => {
+                self.scripts(node, base, *primes, sub.as_deref(), sup.as_deref())
+            }
             Kind::Symbol(s) if s == "\\pi" => Ok(Typed::new(Value::Scalar(self.world.graph.pi()), "\\pi")),
             Kind::Styled(_, body) if matches!(&body.kind, Kind::Number(n) if n == "0") => {
                 let zero = self.world.graph.int(0);
@@ -214,12 +220,20 @@ impl<'w> Elaborator<'w> {
         let name = spelling(node);
         let error = Error::undeclared(format!("undeclared symbol {name}"), &node.span);
         match self.scope.suggestion(&name) {
-            Some(near) => error.with_help(format!("did you mean {}? Otherwise declare it under [symbols]", near.replace('#', "i"))),
+            Some(near) => error
+                .with_help(format!("did you mean {}? Otherwise declare it under [symbols]", near.replace('#', "i"))),
             None => error.with_help(format!("declare it under [symbols], as in '{name}' = {{ range = [0.5, 2] }}")),
         }
     }
 
-    fn scripts(&mut self, node: &Node, base: &Node, primes: u8, sub: Option<&Node>, sup: Option<&Node>) -> Result<Typed> {
+    fn scripts(
+        &mut self,
+        node: &Node,
+        base: &Node,
+        primes: u8,
+        sub: Option<&Node>,
+        sup: Option<&Node>,
+    ) -> Result<Typed> {
         // Dots belong to the whole name: \dot{r}_G is the derivative of r_G.
         if let Kind::Dots(n, inner) = &base.kind {
             let kind = match (primes, sub) {
@@ -285,12 +299,14 @@ impl<'w> Elaborator<'w> {
         let name = instance(&entry.pattern, &indices);
         let value = match &entry.kind {
             EntryKind::Scalar => Value::Scalar(self.scalar_symbol(&entry, &name, name.clone())),
-            EntryKind::Vector => Value::Vector(["x", "y", "z"].map(|axis| {
-                self.scalar_symbol(&entry, &format!("{name}.{axis}"), format!("({name})_{axis}"))
-            })),
+            EntryKind::Vector => Value::Vector(
+                ["x", "y", "z"]
+                    .map(|axis| self.scalar_symbol(&entry, &format!("{name}.{axis}"), format!("({name})_{axis}"))),
+            ),
             EntryKind::Matrix { rows, cols } => {
                 let cells = (0..rows * cols).map(|k| (k / cols + 1, k % cols + 1));
-                let data = cells.map(|(i, j)| self.scalar_symbol(&entry, &format!("{name}.{i}{j}"), format!("{name}_{{{i}{j}}}")));
+                let data = cells
+                    .map(|(i, j)| self.scalar_symbol(&entry, &format!("{name}.{i}{j}"), format!("{name}_{{{i}{j}}}")));
                 Value::Matrix(Matrix { rows: *rows, cols: *cols, data: data.collect() })
             }
             EntryKind::Index(..) => match self.index_value(&name) {
@@ -330,7 +346,10 @@ impl<'w> Elaborator<'w> {
             && t == "T"
         {
             let data = (0..m.rows * m.cols).map(|k| m.at(k % m.rows, k / m.rows)).collect();
-            return Ok(Typed::new(Value::Matrix(Matrix { rows: m.cols, cols: m.rows, data }), format!("{}^T", base.text)));
+            return Ok(Typed::new(
+                Value::Matrix(Matrix { rows: m.cols, cols: m.rows, data }),
+                format!("{}^T", base.text),
+            ));
         }
         let exponent = self.value(sup)?;
         let n = self.scalar(&exponent, &sup.span)?;

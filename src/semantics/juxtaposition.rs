@@ -72,7 +72,9 @@ impl Elaborator<'_> {
             match item {
                 Item::Op(op, span) => {
                     let segment = current.take();
-                    segments.push(segment.ok_or_else(|| Error::unsupported("a factor is missing before this operator", span))?);
+                    segments.push(
+                        segment.ok_or_else(|| Error::unsupported("a factor is missing before this operator", span))?,
+                    );
                     ops.push((*op, (*span).clone()));
                     at += 1;
                 }

@@ -24,7 +24,8 @@ pub use error::{Error, ErrorKind};
 pub use name::spelling;
 pub use scope::{Basis, Entry, EntryKind, Scope, pattern_of};
 pub use statement::{
-    Clause, Instance, Side, Statement, TypedLink, begins_with_relation, has_branches, mentions, relation_latex, statement, understand,
+    Clause, Instance, Side, Statement, TypedLink, begins_with_relation, has_branches, mentions, relation_latex,
+    statement, understand,
 };
 pub use value::{Matrix, Value};
 pub use world::{Facts, World};

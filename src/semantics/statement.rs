@@ -83,7 +83,9 @@ impl Builder {
             Kind::List(items) => items.iter().try_for_each(|item| self.add(item)),
             Kind::Marked(_, body) => self.add(body),
             Kind::Annotated { body, .. } if holds_relation(body) => self.add(body),
-            Kind::Matrix { env: MatrixEnv::Cases | MatrixEnv::Array, rows } if rows.iter().flatten().any(holds_relation) => {
+            Kind::Matrix { env: MatrixEnv::Cases | MatrixEnv::Array, rows }
+                if rows.iter().flatten().any(holds_relation) =>
+            {
                 rows.iter().filter_map(|row| row.first()).try_for_each(|cell| self.add(cell))
             }
             Kind::Group { open: Delim::None | Delim::Brace, body, .. } if holds_relation(body) => self.add(body),
@@ -117,7 +119,8 @@ impl Builder {
             _ => {}
         }
         for (k, link) in links.iter().enumerate() {
-            let states_both = links[..k].iter().any(|l| is_equality(l.rel)) || links[k + 1..].iter().any(|l| is_equality(l.rel));
+            let states_both =
+                links[..k].iter().any(|l| is_equality(l.rel)) || links[k + 1..].iter().any(|l| is_equality(l.rel));
             if matches!(link.rel, Rel::Implies | Rel::Iff | Rel::ImpliedBy) && states_both {
                 self.begin(&link.rhs);
                 continue;
@@ -269,7 +272,8 @@ pub fn understand(world: &mut World, scope: &Scope, clause: &Clause, upper: bool
     }
     let items: Vec<Item> = sides.iter().map(|n| Item::Factor(n)).collect();
     let letters = Elaborator::new(world, scope, Vec::new(), upper).unbound_indices(&items);
-    let mut link = TypedLink { rel: clause.rel, instances: Vec::new(), lhs_text: String::new(), rhs_text: String::new() };
+    let mut link =
+        TypedLink { rel: clause.rel, instances: Vec::new(), lhs_text: String::new(), rhs_text: String::new() };
     for assignment in assignments(scope, &letters) {
         let tag = assignment.iter().map(|(l, v)| format!("{l} = {v}")).collect::<Vec<_>>().join(", ");
         let mut elaborator = Elaborator::new(world, scope, assignment, upper);
@@ -315,12 +319,17 @@ fn meet(elaborator: &mut Elaborator, lhs: Value, rhs: Value, clause: &Clause) ->
         let same = match (&lhs, &rhs) {
             (_, Value::Constant) => true,
             (Value::Matrix(a), Value::Matrix(b)) => (a.rows, a.cols) == (b.rows, b.cols),
-            (a, b) => std::mem::discriminant(a) == std::mem::discriminant(b) && a.components().len() == b.components().len(),
+            (a, b) => {
+                std::mem::discriminant(a) == std::mem::discriminant(b) && a.components().len() == b.components().len()
+            }
         };
         if same {
             Ok((lhs, rhs))
         } else {
-            Err(Error::shape(format!("the sides do not meet: {} on the left, {} on the right", lhs.shape(), rhs.shape()), &span))
+            Err(Error::shape(
+                format!("the sides do not meet: {} on the left, {} on the right", lhs.shape(), rhs.shape()),
+                &span,
+            ))
         }
     })
 }

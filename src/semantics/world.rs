@@ -52,7 +52,8 @@ impl World {
             return facts.tex.clone();
         }
         let info = self.graph.info(id);
-        let base = self.facts.get(&info.base).map_or_else(|| self.graph.info(info.base).name.clone(), |f| f.tex.clone());
+        let base =
+            self.facts.get(&info.base).map_or_else(|| self.graph.info(info.base).name.clone(), |f| f.tex.clone());
         match info.order {
             0 => base,
             n @ 1..=3 => format!("\\{}ot{{{base}}}", "d".repeat(n as usize)),

@@ -1,0 +1,213 @@
+//! The command line: arguments, progress, exit codes.
+
+use std::io::{IsTerminal, Write};
+use std::path::PathBuf;
+use std::process::ExitCode;
+use std::time::Instant;
+
+use clap::{Parser, Subcommand, ValueEnum};
+use indicatif::{ProgressBar, ProgressStyle};
+
+use crate::check::Options;
+use crate::explain;
+use crate::report::{self, Run, terminal};
+use crate::verify::{self, Request, Verified};
+
+/// Exit code: everything is as expected.
+const AS_EXPECTED: u8 = 0;
+/// Exit code: some equation is not as expected.
+const NOT_AS_EXPECTED: u8 = 1;
+/// Exit code: the input could not be read, or the arguments are wrong.
+const UNUSABLE: u8 = 2;
+
+/// A doctest for the equations of lecture notes.
+#[derive(Debug, Parser)]
+#[command(name = "kenzan", version, about)]
+struct Arguments {
+    #[command(subcommand)]
+    command: Command,
+}
+
+#[derive(Debug, Subcommand)]
+enum Command {
+    /// Judge every equation of the notes and write the report.
+    Verify {
+        /// The notes in Markdown; without any, the bundled ones.
+        paths: Vec<PathBuf>,
+        /// The directory of report.html and report.json.
+        #[arg(long, default_value = "out")]
+        out: PathBuf,
+        /// What to print: a summary, or the report as JSON.
+        #[arg(long, value_enum, default_value_t = Format::Human)]
+        format: Format,
+        #[command(flatten)]
+        sampling: Sampling,
+        /// Judge only the equation of this label; may be repeated.
+        #[arg(long, value_name = "LABEL")]
+        only: Vec<String>,
+    },
+    /// Show how one equation is read and what it is at three states.
+    Explain {
+        /// The notes.
+        path: PathBuf,
+        /// The equation's label.
+        label: String,
+        #[command(flatten)]
+        sampling: Sampling,
+    },
+}
+
+/// How states are drawn and decided.
+#[derive(Debug, clap::Args)]
+struct Sampling {
+    /// The seed of the random states.
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// The number of states for each link of an equation.
+    #[arg(long, default_value_t = 64, value_parser = clap::value_parser!(u32).range(1..=1_000_000))]
+    states: u32,
+    /// Decide in so many bits (needs the feature `rug`); otherwise in double-double.
+    #[arg(long, value_name = "BITS", value_parser = precision)]
+    precision: Option<u32>,
+    /// The number of threads; one for each core otherwise.
+    #[arg(long, value_name = "N")]
+    jobs: Option<usize>,
+}
+
+/// What `verify` prints.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Format {
+    /// A summary.
+    Human,
+    /// The report as JSON.
+    Json,
+}
+
+/// Reads a precision; without the feature `rug` there is none to choose.
+fn precision(text: &str) -> Result<u32, String> {
+    let bits: u32 = text.parse().map_err(|_| format!("expected a number of bits, found `{text}`"))?;
+    if !cfg!(feature = "rug") {
+        return Err("this build has no arbitrary precision; build it with `cargo run --release --features rug -- verify --precision 256` (needs a C compiler, make and m4)".into());
+    }
+    if (64..=100_000).contains(&bits) {
+        Ok(bits)
+    } else {
+        Err("the precision must be between 64 and 100000 bits".into())
+    }
+}
+
+impl Sampling {
+    fn options(&self) -> Options {
+        Options { seed: self.seed, states: self.states as usize, precision: self.precision }
+    }
+}
+
+/// Runs the command line.
+pub fn main() -> ExitCode {
+    let arguments = match Arguments::try_parse() {
+        Ok(arguments) => arguments,
+        Err(error) => {
+            let code = if error.use_stderr() { UNUSABLE } else { AS_EXPECTED };
+            // Nothing can be done where even the message cannot be written.
+            let _ = error.print();
+            return ExitCode::from(code);
+        }
+    };
+    let outcome = match arguments.command {
+        Command::Verify { paths, out, format, sampling, only } => {
+            let request = Request { paths, options: sampling.options(), only };
+            in_pool(sampling.jobs, || verify_command(&request, &out, format))
+        }
+        Command::Explain { path, label, sampling } => {
+            in_pool(sampling.jobs, || explain_command(&path, &label, &sampling))
+        }
+    };
+    match outcome {
+        Ok(code) => ExitCode::from(code),
+        Err(error) => {
+            eprintln!("{error:?}");
+            ExitCode::from(UNUSABLE)
+        }
+    }
+}
+
+/// Runs with the number of threads that is asked for. A deep formula needs more stack than threads usually have.
+fn in_pool(jobs: Option<usize>, work: impl FnOnce() -> miette::Result<u8> + Send) -> miette::Result<u8> {
+    let builder = rayon::ThreadPoolBuilder::new().num_threads(jobs.unwrap_or(0)).stack_size(32 << 20);
+    let pool = builder.build().map_err(|e| miette::miette!("no threads could be started: {e}"))?;
+    pool.install(work)
+}
+
+fn verify_command(request: &Request, out: &std::path::Path, format: Format) -> miette::Result<u8> {
+    let begin = Instant::now();
+    let documents = verify::documents(&request.paths)?;
+    let total: usize = documents.iter().map(|d| d.equations().count()).sum();
+    let bar = progress(total);
+    let verified: Vec<Verified> =
+        documents.into_iter().map(|document| verify::verify(document, request, &|| bar.inc(1))).collect();
+    bar.finish_and_clear();
+    for v in &verified {
+        for problem in &v.problems {
+            eprintln!("{:?}", problem.to_miette(&v.document));
+        }
+    }
+    check_labels(request, &verified)?;
+    let run = verify::run(&verified, request, begin);
+    let written = report::write(&run, out)?;
+    print(&run, format, &written)?;
+    Ok(if verify::all_as_expected(&verified) { AS_EXPECTED } else { NOT_AS_EXPECTED })
+}
+
+/// A label that is asked for and is nowhere is an error: silence would look like success.
+fn check_labels(request: &Request, verified: &[Verified]) -> miette::Result<()> {
+    for label in &request.only {
+        if !verified.iter().any(|v| v.report.equations.iter().any(|e| e.label == *label)) {
+            return Err(miette::miette!(
+                help = "labels are as printed; see the report for those of displays without a number",
+                "there is no equation {label}"
+            ));
+        }
+    }
+    Ok(())
+}
+
+fn print(run: &Run, format: Format, written: &report::Written) -> miette::Result<()> {
+    let text = match format {
+        Format::Human => {
+            let colour = std::io::stdout().is_terminal() && std::env::var_os("NO_COLOR").is_none();
+            let summary = terminal::render(run, colour, report::Options::default());
+            format!("{summary}\nreport: {}\n", written.html.display())
+        }
+        Format::Json => report::json::render(run, report::Options::default())?,
+    };
+    // A closed pipe is no failure.
+    let _ = std::io::stdout().write_all(text.as_bytes());
+    Ok(())
+}
+
+/// A progress bar, on a terminal only.
+fn progress(total: usize) -> ProgressBar {
+    if !std::io::stderr().is_terminal() {
+        return ProgressBar::hidden();
+    }
+    let bar = ProgressBar::new(total as u64);
+    if let Ok(style) = ProgressStyle::with_template("{bar:40} {pos}/{len} equations") {
+        bar.set_style(style);
+    }
+    bar
+}
+
+fn explain_command(path: &std::path::Path, label: &str, sampling: &Sampling) -> miette::Result<u8> {
+    let document = crate::document::read(path)?;
+    match explain::explain(&document, label, &sampling.options()) {
+        Some(text) => {
+            let _ = std::io::stdout().write_all(text.as_bytes());
+            Ok(AS_EXPECTED)
+        }
+        None => Err(miette::miette!(
+            help = "labels are as printed; a display without a number has the label before it with +1, +2 ...",
+            "there is no equation {label} in {}",
+            path.display()
+        )),
+    }
+}

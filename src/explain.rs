@@ -1,0 +1,98 @@
+//! One equation in depth, for the terminal.
+
+use std::fmt::Write;
+
+use crate::check::verdict::Judgement;
+use crate::check::{self, Book, Options, Version, inspect::Inspection};
+use crate::document::Document;
+
+/// Explains the equation of a label: how it was read, what it rests on, its sides at three states, the verdict. `None`
+/// where there is no such label.
+pub fn explain(document: &Document, label: &str, options: &Options) -> Option<String> {
+    let book = Book::new(document);
+    let (index, _) = book.find(label).filter(|(index, _)| book.entries[*index].equation.label == label)?;
+    let judgement = check::judge(&book, index, options);
+    let mut text = String::new();
+    // Writing to a string cannot fail.
+    let _ = write(&mut text, document, &book, index, &judgement, options);
+    Some(text)
+}
+
+fn write(
+    out: &mut String,
+    document: &Document,
+    book: &Book,
+    index: usize,
+    judgement: &Judgement,
+    options: &Options,
+) -> std::fmt::Result {
+    writeln!(out, "({}) {}:{}  {}", judgement.label, document.path.display(), judgement.line, judgement.section)?;
+    writeln!(out, "\n  {}\n", judgement.latex.trim())?;
+    if let Some(reading) = &judgement.reading {
+        writeln!(out, "read as: {reading}")?;
+    }
+    for label in &judgement.given {
+        if let Some((k, _)) = book.find(label) {
+            let entry = &book.entries[k];
+            writeln!(out, "given ({label}): {}", entry.formula(Version::Corrected).latex.trim())?;
+        }
+    }
+    for premise in judgement.assumptions.iter().chain(book.entries[index].scope.assume.iter().map(|a| &a.value)) {
+        writeln!(out, "where {premise}")?;
+    }
+    links(out, "as printed", &check::inspect::inspect(book, index, Version::Printed, options))?;
+    if judgement.correction.is_some() {
+        links(out, "as corrected", &check::inspect::inspect(book, index, Version::Corrected, options))?;
+    }
+    verdict(out, judgement)
+}
+
+fn links(out: &mut String, title: &str, inspections: &[Inspection]) -> std::fmt::Result {
+    for (k, link) in inspections.iter().enumerate() {
+        writeln!(out, "\n{title}, link {} of {}: {}", k + 1, inspections.len(), link.latex)?;
+        if let Some((lhs, rhs)) = &link.reading {
+            writeln!(out, "  left:  {lhs}\n  right: {rhs}")?;
+        }
+        if !link.drawn.is_empty() {
+            let drawn: Vec<String> = link.drawn.iter().map(|(s, [a, b])| format!("{s} in [{a}, {b}]")).collect();
+            writeln!(out, "  drawn: {}", drawn.join(", "))?;
+        }
+        if !link.solved.is_empty() {
+            writeln!(out, "  solved from the premises: {}", link.solved.join(", "))?;
+        }
+        for (n, state) in link.states.iter().enumerate() {
+            let symbols: Vec<String> = state.symbols.iter().map(|a| format!("{} = {}", a.symbol, a.value)).collect();
+            writeln!(out, "  state {}: {}", n + 1, symbols.join(", "))?;
+            for (name, lhs, rhs) in &state.sides {
+                let name = name.as_ref().map(|n| format!("{n}: ")).unwrap_or_default();
+                writeln!(out, "    {name}{lhs}  |  {rhs}")?;
+            }
+        }
+        if let Some(obstacle) = &link.obstacle {
+            writeln!(out, "  {obstacle}")?;
+        }
+    }
+    Ok(())
+}
+
+fn verdict(out: &mut String, judgement: &Judgement) -> std::fmt::Result {
+    let name = |v: crate::check::verdict::Verdict| format!("{v:?}").to_lowercase();
+    writeln!(out, "\nverdict: {}", name(judgement.verdict))?;
+    if let Some(bits) = judgement.bits {
+        writeln!(out, "  both sides agree to {bits} bits at {} states", judgement.states)?;
+    }
+    for link in &judgement.links {
+        let reason = link.reason.as_ref().map(|r| format!(": {r}")).unwrap_or_default();
+        writeln!(out, "  {}  {}{reason}", name(link.verdict), link.latex)?;
+        if let Some(order) = &link.order {
+            writeln!(out, "    order in {}: {:.3} measured, {} claimed", order.small, order.measured, order.claimed)?;
+        }
+    }
+    if let Some(correction) = &judgement.correction {
+        writeln!(out, "  corrected: {}: {}", name(correction.verdict), correction.latex.trim())?;
+    }
+    if let Some(because) = &judgement.because {
+        writeln!(out, "  {because}")?;
+    }
+    Ok(())
+}
