@@ -75,7 +75,8 @@ impl Source<'_> {
     /// Builds the claim of a clause of the equation. `known` are clauses of the same equation that are definitions.
     pub fn claim(&self, clause: &Clause, scope: &Scope, known: &[Clause]) -> Result<Claim, Obstacle> {
         let mut world = World::new();
-        // `t` is the time of all symbols that depend on it.
+        // A premise from another section that speaks of the same basis means this one.
+        Elaborator::new(&mut world, scope, Vec::new(), true).build_bases();
         let typed = self.branches(&mut world, scope, clause).map_err(Obstacle::Link)?;
         let constant = clause.rhs == Side::Constant;
         let mut branches: Vec<Branch> = typed.iter().map(|link| pairs(&mut world, link, constant)).collect();

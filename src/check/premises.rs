@@ -111,16 +111,12 @@ impl Premises {
         e
     }
 
-    /// Adds the time derivatives of the residuals as long as they hold no higher derivative of any symbol than occurs
-    /// in `targets` or in the premises themselves.
+    /// Adds the time derivatives of the residuals, as long as they are of no higher order than what occurs in `targets`
+    /// or in the premises themselves.
     pub fn close_in_time(&mut self, graph: &mut Graph, targets: &[Expr]) {
-        let mut highest: HashMap<SymId, u32> = HashMap::new();
         let all: Vec<Expr> = targets.iter().chain(&self.residuals).copied().collect();
-        for s in graph.symbols(&all) {
-            let info = graph.info(s);
-            let order = highest.entry(info.base).or_insert(0);
-            *order = (*order).max(info.order);
-        }
+        let order = |graph: &Graph, es: &[Expr]| graph.symbols(es).iter().map(|s| graph.info(*s).order).max().unwrap_or(0);
+        let highest = order(graph, &all);
         let t = graph.find("t");
         let mut seen: HashSet<Expr> = self.residuals.iter().copied().collect();
         let mut at = 0;
@@ -128,12 +124,8 @@ impl Premises {
             let derivative = graph.time_derivative(self.residuals[at], t);
             let derivative = self.resolve(graph, derivative);
             at += 1;
-            let known = |s: &SymId| {
-                let info = graph.info(*s);
-                !info.of_t || highest.get(&info.base).is_some_and(|order| info.order <= *order)
-            };
-            let symbols = graph.symbols(&[derivative]);
-            if !symbols.is_empty() && symbols.iter().all(known) && seen.insert(derivative) {
+            let says_something = !graph.symbols(&[derivative]).is_empty();
+            if says_something && order(graph, &[derivative]) <= highest && seen.insert(derivative) {
                 self.residuals.push(derivative);
             }
         }

@@ -97,6 +97,14 @@ impl Elaborator<'_> {
 
     // ---- bases ------------------------------------------------------------------------------------------------
 
+    /// Builds the triads of all declared bases. What is wrong with one shows where it is used.
+    pub fn build_bases(&mut self) {
+        let names: Vec<String> = self.scope.bases().map(|b| b.name.clone()).collect();
+        for name in names {
+            let _ = self.triad(&name, &(0..0));
+        }
+    }
+
     fn basis(&self, name: &str, span: &Span) -> Result<Basis> {
         self.scope.basis(name).cloned().ok_or_else(|| {
             Error::undeclared(format!("undeclared basis {name}"), span)

@@ -166,6 +166,9 @@ impl Elaborator<'_> {
 
     /// Two factors that are declared as one name, such as `d\theta`.
     fn spelt_together(&mut self, first: &Node, second: &Node) -> Result<Option<Typed>> {
+        if super::name::spelling(first).is_empty() || super::name::spelling(second).is_empty() {
+            return Ok(None);
+        }
         let pair = Node::new(Kind::Juxt(vec![first.clone(), second.clone()]), first.span.start..second.span.end);
         if self.scope.get(&super::name::spelling(&pair)).is_none() {
             return Ok(None);

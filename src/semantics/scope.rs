@@ -113,6 +113,11 @@ impl Scope {
         self.entries.get(pattern).map(Arc::as_ref)
     }
 
+    /// The bases, those declared last first.
+    pub fn bases(&self) -> impl Iterator<Item = &Basis> {
+        self.bases.iter().rev().map(Arc::as_ref)
+    }
+
     /// A basis by its name.
     pub fn basis(&self, name: &str) -> Option<&Basis> {
         self.bases.iter().rev().find(|b| b.name == name).map(Arc::as_ref)
