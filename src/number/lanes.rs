@@ -88,7 +88,7 @@ impl<const N: usize> Number for Lanes<N> {
         }
     }
     fn set_atan2(&mut self, y: &Self, x: &Self) {
-        self.zip(y, x, f64::atan2);
+        self.zip(y, x, float::atan2);
     }
 
     fn to_f64(&self) -> f64 {

@@ -38,6 +38,8 @@ pub use xprec::Df64;
 
 use std::fmt::Debug;
 
+#[cfg(all(test, feature = "rug"))]
+mod accuracy;
 #[cfg(test)]
 mod conformance;
 
