@@ -11,6 +11,8 @@ pub use graph::{Expr, Graph, Node, SymId, SymbolInfo};
 pub use tape::{Tape, Workspace};
 
 #[cfg(test)]
+mod random_tests;
+#[cfg(test)]
 mod tape_tests;
 #[cfg(test)]
 mod tests;

@@ -42,6 +42,8 @@ use std::fmt::Debug;
 mod accuracy;
 #[cfg(test)]
 mod conformance;
+#[cfg(test)]
+mod tracked_tests;
 
 /// A number that a tape can be evaluated in.
 ///
