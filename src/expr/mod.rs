@@ -4,6 +4,7 @@ pub mod diff;
 mod display;
 pub mod graph;
 mod ratio;
+mod rewrite;
 pub mod tape;
 
 pub use crate::number::Func;

@@ -2,8 +2,8 @@
 
 use super::{Func, Number, decimal, float};
 
-/// The number of lanes that is fastest on common machines (measured by `benches/tape.rs`).
-pub const LANES: usize = 8;
+/// The number of lanes that was fastest of 4, 8, 16 and 32 on x86-64 (`benches/tape.rs`).
+pub const LANES: usize = 16;
 
 /// `N` machine numbers that are computed with side by side.
 #[derive(Clone, Copy, Debug, PartialEq)]

@@ -94,8 +94,8 @@ fn value(a: Quadrants) -> Df64 {
     for (i, word) in a.iter().enumerate().rev() {
         let scale = f64::exp2(-62.0 - 64.0 * i as f64);
         let (high, low) = ((word >> 32) as f64 * 4_294_967_296.0, (word & 0xffff_ffff) as f64);
-        sum = sum + Df64::from(low * scale);
-        sum = sum + Df64::from(high * scale);
+        sum += Df64::from(low * scale);
+        sum += Df64::from(high * scale);
     }
     sum
 }
