@@ -186,12 +186,25 @@ mod mpfr {
         let float = |x: f64| Float::with_val(bits, x);
         let states: Vec<Vec<Float>> = (0..FEW).map(|n| state(n, 14).into_iter().map(float).collect()).collect();
         let mut temporaries: [Float; 16] = std::array::from_fn(|_| Float::new(bits));
+        check(&states[7], &mut temporaries, bits);
         bencher.bench_local(|| {
             for state in black_box(&states) {
                 by_hand(state, &mut temporaries);
                 black_box(&temporaries);
             }
         });
+    }
+
+    /// Both compute the same.
+    fn check(state: &[Float], temporaries: &mut [Float; 16], bits: u32) {
+        by_hand(state, temporaries);
+        let inputs: Vec<_> = state.iter().cloned().map(Mpfr).collect();
+        let mut workspace = Workspace::new();
+        let values = tape().eval(&inputs, &bits, &mut workspace).to_vec();
+        for (value, hand) in values.iter().zip([9, 12, 13]) {
+            let difference = Float::with_val(bits, &value.0 - &temporaries[hand]);
+            assert!(difference.abs() < f64::exp2(10.0 - f64::from(bits)), "{value:?} {}", temporaries[hand]);
+        }
     }
 
     fn by_hand(x: &[Float], temporaries: &mut [Float; 16]) {

@@ -126,7 +126,7 @@ impl Number for f64 {
     }
 }
 
-/// The errors of the usual mathematical libraries' functions are below one or two units in the last place, each at most
+/// Assumed of the system: the errors of the usual mathematical libraries' functions are below one or two units in the last place, each at most
 /// two units of the roundoff; what is composed of several of them here has some more.
 impl Real for f64 {
     fn rounding(operation: Operation) -> f64 {
