@@ -4,12 +4,15 @@ pub mod diff;
 mod display;
 pub mod graph;
 mod ratio;
+mod rewrite;
 pub mod tape;
 
 pub use crate::number::Func;
 pub use graph::{Expr, Graph, Node, SymId, SymbolInfo};
 pub use tape::{Tape, Workspace};
 
+#[cfg(test)]
+mod random_tests;
 #[cfg(test)]
 mod tape_tests;
 #[cfg(test)]

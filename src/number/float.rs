@@ -50,6 +50,11 @@ pub(super) fn power(a: f64, b: f64) -> f64 {
     if a < 0.0 { f64::NAN } else { a.powf(b) }
 }
 
+/// The angle of the point (x, y), where a zero has no sign: it would tell on which side of the cut it lies only by chance.
+pub(super) fn atan2(y: f64, x: f64) -> f64 {
+    (y + 0.0).atan2(x + 0.0)
+}
+
 impl Number for f64 {
     type Context = ();
 
@@ -104,7 +109,7 @@ impl Number for f64 {
         *self = call(f, *a);
     }
     fn set_atan2(&mut self, y: &Self, x: &Self) {
-        *self = y.atan2(*x);
+        *self = atan2(*y, *x);
     }
 
     fn to_f64(&self) -> f64 {
@@ -121,7 +126,7 @@ impl Number for f64 {
     }
 }
 
-/// The errors of the usual mathematical libraries' functions are below one or two units in the last place, each at most
+/// Assumed of the system: the errors of the usual mathematical libraries' functions are below one or two units in the last place, each at most
 /// two units of the roundoff; what is composed of several of them here has some more.
 impl Real for f64 {
     fn rounding(operation: Operation) -> f64 {

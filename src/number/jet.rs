@@ -209,9 +209,9 @@ impl<N: Number> Number for Jet<N> {
     fn set_div(&mut self, a: &Self, b: &Self) {
         let (a, b) = (&a.coefficients, &b.coefficients);
         let mut q = vec![a[0].over(&b[0])];
-        for k in 1..a.len().min(b.len()) {
+        for (k, (ak, _)) in a.iter().zip(b).enumerate().skip(1) {
             let known = Self::convolve(&q, b, k, 0..=k - 1, false);
-            q.push(a[k].minus(&known).over(&b[0]));
+            q.push(ak.minus(&known).over(&b[0]));
         }
         self.coefficients = q;
     }
@@ -235,9 +235,9 @@ impl<N: Number> Number for Jet<N> {
         let a = &a.coefficients;
         let mut r = vec![a[0].root()];
         let twice = r[0].plus(&r[0]);
-        for k in 1..a.len() {
+        for (k, ak) in a.iter().enumerate().skip(1) {
             let known = Self::convolve(&r, &r, k, 1..=k - 1, false);
-            r.push(a[k].minus(&known).over(&twice));
+            r.push(ak.minus(&known).over(&twice));
         }
         self.coefficients = r;
     }

@@ -9,6 +9,8 @@
 //! | [`Tracked`] over a [`Real`] | its own | a value with a bound of its rounding error |
 //! | [`Dual`], [`Jet`] over any | its own | a derivative; a Taylor series |
 //!
+//! [`F61`], a prime field, stands beside them: it has no size and no order, and so is no [`Number`].
+//!
 //! What every number promises, and one conformance suite checks of all:
 //!
 //! - The basic operations and functions are right to [`Real::rounding`] units of the roundoff, as long as the operands
@@ -18,6 +20,7 @@
 mod decimal;
 mod df64;
 mod dual;
+mod f61;
 mod float;
 mod func;
 mod jet;
@@ -28,6 +31,7 @@ mod reduction;
 mod tracked;
 
 pub use dual::Dual;
+pub use f61::F61;
 pub use func::Func;
 pub use jet::{Jet, JetContext};
 pub use lanes::{LANES, Lanes};
@@ -38,8 +42,12 @@ pub use xprec::Df64;
 
 use std::fmt::Debug;
 
+#[cfg(all(test, feature = "rug"))]
+mod accuracy;
 #[cfg(test)]
 mod conformance;
+#[cfg(test)]
+mod tracked_tests;
 
 /// A number that a tape can be evaluated in.
 ///

@@ -29,6 +29,10 @@ fn is_negative_zero(x: &Float) -> bool {
     x.is_zero() && x.is_sign_negative()
 }
 
+fn unsigned_zero(x: &Float) -> Float {
+    if x.is_zero() { Float::new(x.prec()) } else { x.clone() }
+}
+
 /// A precision that MPFR accepts.
 fn precision(bits: &u32) -> u32 {
     (*bits).clamp(rug::float::prec_min().max(2), rug::float::prec_max())
@@ -126,7 +130,7 @@ impl Number for Mpfr {
     fn set_atan2(&mut self, y: &Self, x: &Self) {
         let bits = y.0.prec().max(x.0.prec());
         if is_negative_zero(&y.0) || is_negative_zero(&x.0) {
-            let (y, x) = (Float::with_val(bits, &y.0 + 0), Float::with_val(bits, &x.0 + 0));
+            let (y, x) = (unsigned_zero(&y.0), unsigned_zero(&x.0));
             self.put(bits, y.atan2_ref(&x));
         } else {
             self.put(bits, y.0.atan2_ref(&x.0));

@@ -94,8 +94,8 @@ fn value(a: Quadrants) -> Df64 {
     for (i, word) in a.iter().enumerate().rev() {
         let scale = f64::exp2(-62.0 - 64.0 * i as f64);
         let (high, low) = ((word >> 32) as f64 * 4_294_967_296.0, (word & 0xffff_ffff) as f64);
-        sum = sum + Df64::from(low * scale);
-        sum = sum + Df64::from(high * scale);
+        sum += Df64::from(low * scale);
+        sum += Df64::from(high * scale);
     }
     sum
 }
@@ -109,7 +109,7 @@ mod tests {
         for x in [0.5, -0.75, 1e-5, -1e-300, 0.0] {
             let (q, z) = quadrant(Df64::from(x));
             assert_eq!(q, 0);
-            assert!((z - Df64::from(x)).hi().abs() <= 1e-30 * x.abs(), "{x}: {z}");
+            assert!((z - Df64::from(x)).hi().abs() <= 1e-30 * x.abs() + 1e-96, "{x}: {z}");
         }
     }
 
@@ -124,11 +124,11 @@ mod tests {
         }
     }
 
-    /// sin 10^22 = -0.85220084976713188... by MPFR.
+    /// sin 10^22 = -0.85220084976718880... by MPFR.
     #[test]
     fn large_angles() {
         let (q, z) = quadrant(Df64::from(1e22));
         let sine = [z.hi().sin(), z.hi().cos(), -z.hi().sin(), -z.hi().cos()][usize::from(q)];
-        assert!((sine + 0.852_200_849_767_138_8).abs() < 1e-15);
+        assert!((sine + 0.852_200_849_767_188_8).abs() < 1e-15);
     }
 }
