@@ -10,6 +10,7 @@
 //!   that is not there, is not UTF-8, or holds no equation is a [`ReadError`].
 
 pub mod annotation;
+mod assembly;
 pub mod declaration;
 mod display;
 pub mod label;
