@@ -2,7 +2,7 @@
 
 use super::annotation::{self, About, EquationAnnotation};
 use super::declaration;
-use super::display::Display;
+use super::display::{BlockRows, Display};
 use super::layout::trimmed;
 use super::place::{Lines, Span, Spanned};
 use super::problem::Problem;
@@ -43,6 +43,8 @@ enum Target {
 #[derive(Clone)]
 struct LastDisplay {
     content: Span,
+    /// Where the line begins that it is opened in.
+    line: usize,
     environment: Option<String>,
     /// The last label printed before it.
     previous: Option<String>,
@@ -50,7 +52,7 @@ struct LastDisplay {
 
 impl LastDisplay {
     fn take_apart<'a>(&self, source: &'a str) -> Display<'a> {
-        Display::new(source, self.content.clone(), self.environment.as_deref(), self.previous.as_deref())
+        Display::new(source, self.content.clone(), self.line, self.environment.as_deref(), self.previous.as_deref())
     }
 }
 
@@ -96,7 +98,9 @@ impl<'a> Assembly<'a> {
                 self.items.push(Item::Section(section));
             }
             Part::Formula(span) => self.formula = Some(span),
-            Part::Found(Found::Display { content, environment, .. }) => self.display(content, environment),
+            Part::Found(Found::Display { span, content, environment }) => {
+                self.display(span.start, content, environment)
+            }
             Part::Found(Found::Broken { .. }) => {
                 self.target = Target::Damaged;
                 self.formula = None;
@@ -105,8 +109,9 @@ impl<'a> Assembly<'a> {
         }
     }
 
-    fn display(&mut self, content: Span, environment: Option<String>) {
-        let last = LastDisplay { content, environment, previous: self.previous.clone() };
+    fn display(&mut self, start: usize, content: Span, environment: Option<String>) {
+        let line = self.lines.start(start);
+        let last = LastDisplay { content, line, environment, previous: self.previous.clone() };
         let display = last.take_apart(self.source);
         let first = self.items.len();
         for part in display.parts(&mut self.problems) {
@@ -172,10 +177,8 @@ impl<'a> Assembly<'a> {
 
     fn comment(&mut self, span: Span, content: Span) {
         let Some(text) = self.source.get(content.clone()).and_then(directive) else { return };
-        let table = match toml::parse(self.source, content.end - text.len()..content.end) {
-            Ok(table) => table,
-            Err(problem) => return self.problems.push(problem),
-        };
+        let range = content.end - text.len()..content.end;
+        let Some(table) = toml::parse(self.source, range, &mut self.problems) else { return };
         let problems_before = self.problems.len();
         let mut reader = Reader { problems: &mut self.problems };
         match annotation::about(&table, &mut reader) {
@@ -204,20 +207,21 @@ impl<'a> Assembly<'a> {
             self.inline(&formula, label);
         } else if matches!(self.target, Target::Damaged) {
             return;
-        } else if !annotation.rows.is_empty() && !self.split_rows(&annotation.rows) {
-            return;
         }
-        let only_rows = EquationAnnotation {
-            span: annotation.span.clone(),
-            rows: annotation.rows.clone(),
-            ..EquationAnnotation::default()
-        };
-        if annotation == only_rows && !annotation.rows.is_empty() {
-            return;
+        if !annotation.rows.is_empty() {
+            self.split_rows(&annotation.rows);
+            let only_rows = EquationAnnotation {
+                span: annotation.span.clone(),
+                rows: annotation.rows.clone(),
+                ..EquationAnnotation::default()
+            };
+            if annotation == only_rows {
+                return;
+            }
         }
         let Some(index) = self.target_of(&annotation) else { return };
-        if !annotation.label.as_ref().is_none_or(|label| self.rename(index, label)) {
-            return;
+        if let Some(label) = &annotation.label {
+            self.rename(index, label);
         }
         let Some(Item::Equation(equation)) = self.items.get_mut(index) else { return };
         match &equation.annotation {
@@ -277,60 +281,35 @@ impl<'a> Assembly<'a> {
         None
     }
 
-    /// Gives a label to an equation that prints none. Whether that could be done, or had been done.
-    fn rename(&mut self, index: usize, label: &Spanned<String>) -> bool {
-        let Some(Item::Equation(equation)) = self.items.get(index) else { return false };
-        if equation.label == label.value {
-            return true;
+    /// Gives a label to a display that prints none. An inline formula has got its label before.
+    fn rename(&mut self, index: usize, label: &Spanned<String>) {
+        let Some(Item::Equation(equation)) = self.items.get(index) else { return };
+        if equation.inline || equation.label == label.value {
+            return;
         }
         if equation.numbered {
             let message = format!("equation {} has a label already", equation.label);
             let problem = Problem::error("document::labelled_twice", message, label.span.clone());
-            self.problems
-                .push(problem.label("cannot have another").help("leave out `label`; refer to the printed one"));
-            return true;
-        }
-        if self.claim(&label.value, &label.span)
+            let help = "leave out `label`; refer to the printed one";
+            self.problems.push(problem.label("cannot have another").help(help));
+        } else if self.claim(&label.value, &label.span)
             && let Some(Item::Equation(equation)) = self.items.get_mut(index)
         {
             equation.label.clone_from(&label.value);
         }
-        true
     }
 
-    /// Makes an equation of each row of the display before; whether that could be done.
-    fn split_rows(&mut self, labels: &[Spanned<String>]) -> bool {
-        let place = labels.first().map_or(0, |label| label.span.start)..labels.last().map_or(0, |label| label.span.end);
-        let cannot =
-            |message: String, label: &str| Problem::error("document::rows", message, place.clone()).label(label);
-        let Target::Equations { first, count, display: Some(last) } = &self.target else {
-            let problem = cannot("`rows` needs a display before it".to_owned(), "the labels of its rows");
-            self.problems.push(problem.help("put the annotation directly after the display"));
-            return false;
+    /// Makes an equation of each row of the display before, if that can be done; otherwise it is a problem.
+    fn split_rows(&mut self, labels: &[Spanned<String>]) {
+        let (first, whole, display, block) = match self.rows_to_label(labels) {
+            Ok(found) => found,
+            Err([message, label, help]) => {
+                let start = labels.first().map_or(0, |label| label.span.start);
+                let end = labels.last().map_or(start, |label| label.span.end);
+                let problem = Problem::error("document::rows", message, start..end);
+                return self.problems.push(problem.label(label).help(help));
+            }
         };
-        let (first, is_single) = (*first, *count == 1);
-        let display = last.take_apart(self.source);
-        let block = display.block_rows().filter(|_| is_single);
-        let Some(block) = block else {
-            let problem =
-                cannot("the display has no block whose rows could be labelled".to_owned(), "the labels of its rows");
-            let help = "it must hold exactly one `cases`, `aligned` or `array`, and its rows no labels of their own";
-            self.problems.push(problem.help(help));
-            return false;
-        };
-        if block.rows.len() != labels.len() {
-            let message = format!("the block has {} rows", block.rows.len());
-            let problem = cannot(message, &format!("{} labels", labels.len()));
-            self.problems.push(problem.help("give one label for each row"));
-            return false;
-        }
-        if !block.accepts(labels) {
-            let problem = cannot("a row without a label".to_owned(), "one of them is empty");
-            let help = "only the rows of `aligned` and the like can belong to the label below them";
-            self.problems.push(problem.help(help));
-            return false;
-        }
-        let Some(Item::Equation(whole)) = self.items.get(first).cloned() else { return false };
         let mut rows = Vec::new();
         for (label, span) in block.labelled(labels) {
             let is_own = whole.numbered && whole.label == label.value;
@@ -340,16 +319,46 @@ impl<'a> Assembly<'a> {
             let (prefix, display) = (block.prefix.clone(), whole.display);
             rows.push(Item::Equation(Equation { numbered: is_own, prefix, display, ..equation }));
         }
-        let count = rows.len();
-        if whole.numbered
-            && let Some(last) = labels.last()
-        {
+        if let Some(last) = labels.last().filter(|_| whole.numbered) {
             self.previous = Some(last.value.clone());
             self.unnumbered = 0;
         }
+        self.target = Target::Equations { first, count: rows.len(), display: None };
         self.items.splice(first..first + 1, rows);
-        self.target = Target::Equations { first, count, display: None };
-        true
+    }
+
+    /// The display before, if its rows can have these labels: its item, its equation, its parts and its block. Otherwise
+    /// why not: message, note and help.
+    fn rows_to_label(
+        &self,
+        labels: &[Spanned<String>],
+    ) -> Result<(usize, Equation, Display<'a>, BlockRows), [String; 3]> {
+        let because = |message: &str, help: &str| Err([message, "the labels of its rows", help].map(str::to_owned));
+        let Target::Equations { first, count, display: Some(last) } = &self.target else {
+            return because("`rows` needs a display before it", "put the annotation directly after the display");
+        };
+        let Some(Item::Equation(whole)) = self.items.get(*first) else {
+            return because("`rows` needs a display before it", "put the annotation directly after the display");
+        };
+        if whole.annotation.is_some() {
+            return because("`rows` comes too late", "put it into the first annotation of the display");
+        }
+        let display = last.take_apart(self.source);
+        let Some(block) = display.block_rows().filter(|_| *count == 1) else {
+            return because(
+                "the display has no block whose rows could be labelled",
+                "it must hold exactly one `cases`, `aligned` or `array`, and its rows no labels of their own",
+            );
+        };
+        if block.rows.len() != labels.len() {
+            let message = format!("the block has {} rows, but {} labels are given", block.rows.len(), labels.len());
+            return because(&message, "give one label for each row");
+        }
+        if !block.accepts(labels) {
+            let help = "only the rows of `aligned` and the like can belong to the label below them";
+            return because("a row without a label", help);
+        }
+        Ok((*first, whole.clone(), display, block))
     }
 }
 

@@ -63,9 +63,16 @@ impl BlockRows {
 }
 
 impl<'a> Display<'a> {
-    /// Takes the display at `content` apart. `previous` is the last label printed before it.
-    pub(super) fn new(source: &'a str, content: Span, environment: Option<&str>, previous: Option<&str>) -> Self {
-        let quote_marks = quote_marks(source, &content);
+    /// Takes the display at `content` apart. `line` is where the line begins that it is opened in; `previous` is the last
+    /// label printed before it.
+    pub(super) fn new(
+        source: &'a str,
+        content: Span,
+        line: usize,
+        environment: Option<&str>,
+        previous: Option<&str>,
+    ) -> Self {
+        let quote_marks = quote_marks(source, line, &content);
         let content = without_quote_marks(source, content, &quote_marks);
         let text = source.get(content.clone()).unwrap_or_default();
         let layout = Layout::of(text);
@@ -207,12 +214,12 @@ fn without_quote_marks(source: &str, content: Span, marks: &[Span]) -> Span {
     content
 }
 
-/// The `>` at the beginning of the lines of a display that stands in a block quote.
-fn quote_marks(source: &str, content: &Span) -> Vec<Span> {
-    let before = source.get(..content.start).unwrap_or_default();
-    let line = before.get(before.rfind('\n').map_or(0, |at| at + 1)..).unwrap_or_default();
+/// The `>` at the beginning of the lines of a display that stands in a block quote, if `line`, where it is opened, begins
+/// with such marks. Only the first 100 characters of a line are marks.
+fn quote_marks(source: &str, line: usize, content: &Span) -> Vec<Span> {
+    let line = source.get(line..content.start).unwrap_or_default();
     let is_mark = |c: &char| matches!(c, ' ' | '\t' | '>');
-    let depth = line.chars().take_while(is_mark).filter(|c| *c == '>').count();
+    let depth = line.chars().take(100).take_while(is_mark).filter(|c| *c == '>').count();
     let mut marks = Vec::new();
     if depth == 0 {
         return marks;
@@ -220,7 +227,7 @@ fn quote_marks(source: &str, content: &Span) -> Vec<Span> {
     let text = source.get(content.clone()).unwrap_or_default();
     for (at, _) in text.match_indices('\n') {
         let line = text.get(at + 1..).unwrap_or_default();
-        let prefix = line.char_indices().take_while(|(_, c)| is_mark(c)).filter(|(_, c)| *c == '>');
+        let prefix = line.char_indices().take(100).take_while(|(_, c)| is_mark(c)).filter(|(_, c)| *c == '>');
         marks.extend(prefix.take(depth).map(|(mark, _)| {
             let mark = content.start + at + 1 + mark;
             mark..mark + 1

@@ -54,6 +54,7 @@ pub struct Document {
 }
 
 /// A part of a document.
+#[expect(clippy::large_enum_variant, reason = "nearly all items are equations")]
 #[derive(Clone, Debug, PartialEq)]
 pub enum Item {
     /// A heading.

@@ -5,8 +5,8 @@
 //! `\begin{equation} .. \end{equation}` and its like, starred or not. A display may hold blank lines as long as
 //! mathematics follows them. Where prose follows, or a heading, or an inline formula, or another display opens, the
 //! display was not closed: it ends at that blank line, and what comes after it is read as if nothing had happened. A
-//! `$$` opens rather than closes if it stands first in its line and is closed in that line, or if it stands first in its
-//! line after a blank line and mathematics follows it.
+//! `$$` opens rather than closes if it stands first in its line, mathematics follows it, and it is closed in that line or
+//! stands below a blank line.
 
 use super::layout::environment_arguments;
 use super::place::Span;
@@ -231,7 +231,7 @@ impl<'a> Scanner<'a> {
         let rest = self.from(close + 2);
         let line = rest.lines().next().unwrap_or_default();
         let is_closed_in_line = line.matches("$$").count() % 2 == 1 && !line.trim_start().starts_with("$$");
-        is_closed_in_line || (ends_with_blank_line(content) && begins_with_mathematics(rest))
+        (is_closed_in_line || ends_with_blank_line(content)) && begins_with_mathematics(rest)
     }
 
     /// The next blank line or opening of a display or comment.

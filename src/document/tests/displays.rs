@@ -165,3 +165,17 @@ fn line_endings_of_windows_are_read() {
     let annotation = document.equations().next().unwrap().annotation.clone().unwrap();
     assert_eq!(&source[annotation.given[0].span.clone()], "2");
 }
+
+#[test]
+fn dollars_first_in_a_line_close_if_prose_follows_them() {
+    assert_eq!(equations("$$ a\n$$ and then $x$, $$b\n$$\n"), pairs(&[("0+1", "a"), ("0+2", "b")]));
+    assert_eq!(equations("$$\na\n\n$$\nwhere $x = 1$ holds.\n\n$$\nb\n$$\n$$\nc\n$$ $$d$$\n").len(), 4);
+    assert_eq!(equations("$$\na\n\n$$\n<!-- kenzan\ngiven = ['1'] -->\n\n$$ b $$").len(), 2);
+}
+
+#[test]
+fn dollars_below_a_blank_line_open_if_mathematics_follows_them() {
+    let document = parse("$$\na = b\n\n$$\nc = d\n$$\n\nText.\n\n$$ e $$");
+    let latex: Vec<_> = document.equations().map(|equation| equation.latex.as_str()).collect();
+    assert_eq!((latex, document.problems.len()), (vec!["c = d", "e"], 1));
+}

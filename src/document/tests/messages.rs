@@ -60,6 +60,7 @@ messages! {
     misplaced_keys: "$$ a $$\n<!-- kenzan\ngiven = ['1']\nassume = ['b']\n-->";
     empty_annotation: "$$ a $$\n<!-- kenzan -->";
     rows_that_do_not_fit: "$$ a = \\begin{cases} b \\\\ c \\end{cases} $$\n<!-- kenzan\nrows = ['1', '2', '3'] -->";
+    rows_too_late: "$$ a = \\begin{cases} b \\\\ c \\end{cases} $$\n<!-- kenzan\nbecause = 'A' -->\n<!-- kenzan\nrows = ['1', '2'] -->";
     rows_without_a_block: "$$ a = b $$\n<!-- kenzan\nrows = ['1', '2'] -->";
     rows_without_a_display: "日本 <!-- kenzan\nrows = ['1', '2'] -->";
     rows_of_cases_without_label: "$$ a = \\begin{cases} b \\\\ c \\end{cases} $$\n<!-- kenzan\nrows = ['', '2'] -->";
