@@ -11,7 +11,8 @@
 //!
 //! `rows = ["71", "72"]`, in the first annotation of a display, makes an equation of each row of its `cases` (or
 //! `aligned`, `array` ..) block: the row's first cell, with what stands before the block as its
-//! [`prefix`](super::Equation::prefix). An annotation with no other key than `rows` belongs to none of them.
+//! [`prefix`](super::Equation::prefix). Rows of an `aligned` with an empty label belong to the
+//! label below, `rows = ["", "", "411", "", "412"]`. An annotation with no other key than `rows` belongs to none of them.
 
 use super::declaration::{KEYS as DECLARATION_KEYS, SymbolDeclaration, symbols};
 use super::place::{Span, Spanned};

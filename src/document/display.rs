@@ -6,7 +6,7 @@
 
 use super::label::{self, Printed, Region};
 use super::layout::{Block, Layout, first_ampersand, has_statements, trimmed};
-use super::place::Span;
+use super::place::{Span, Spanned};
 use super::problem::Problem;
 
 /// A display that has been taken apart. Places in it are bytes of the file.
@@ -36,11 +36,44 @@ pub(super) struct BlockRows {
     pub(super) prefix: String,
     /// The rows, or their first cells.
     pub(super) rows: Vec<Span>,
+    /// Whether rows can be joined: not where they are cells.
+    joinable: bool,
+}
+
+impl BlockRows {
+    /// Whether each row has a label, or is a row that can belong to the label below.
+    pub(super) fn accepts(&self, labels: &[Spanned<String>]) -> bool {
+        let given = |label: &Spanned<String>| !label.value.is_empty();
+        labels.iter().all(given) || (self.joinable && labels.last().is_some_and(given))
+    }
+
+    /// The labels with their rows. Rows with an empty label belong to the next label below.
+    pub(super) fn labelled<'l>(&self, labels: &'l [Spanned<String>]) -> Vec<(&'l Spanned<String>, Span)> {
+        let mut start = None;
+        let mut found = Vec::new();
+        for (label, row) in labels.iter().zip(&self.rows) {
+            let from = *start.get_or_insert(row.start);
+            if !label.value.is_empty() {
+                found.push((label, from..row.end));
+                start = None;
+            }
+        }
+        found
+    }
 }
 
 impl<'a> Display<'a> {
-    /// Takes the display at `content` apart. `previous` is the last label printed before it.
-    pub(super) fn new(source: &'a str, content: Span, environment: Option<&str>, previous: Option<&str>) -> Self {
+    /// Takes the display at `content` apart. `line` is where the line begins that it is opened in; `previous` is the last
+    /// label printed before it.
+    pub(super) fn new(
+        source: &'a str,
+        content: Span,
+        line: usize,
+        environment: Option<&str>,
+        previous: Option<&str>,
+    ) -> Self {
+        let quote_marks = quote_marks(source, line, &content);
+        let content = without_quote_marks(source, content, &quote_marks);
         let text = source.get(content.clone()).unwrap_or_default();
         let layout = Layout::of(text);
         let regions = label::regions(text, &layout, environment);
@@ -48,7 +81,7 @@ impl<'a> Display<'a> {
         let mut noise: Vec<Span> = printed.iter().map(|printed| printed.span.clone()).collect();
         noise.extend(layout.silent.iter().cloned());
         noise.iter_mut().for_each(|span| *span = content.start + span.start..content.start + span.end);
-        noise.extend(quote_marks(source, &content));
+        noise.extend(quote_marks);
         noise.sort_by_key(|span| span.start);
         Display { source, content, layout, regions, printed, noise }
     }
@@ -132,7 +165,7 @@ impl<'a> Display<'a> {
             && region.span == (0..self.content.len())
         {
             let rows = self.written_rows(&region.rows);
-            return Some(BlockRows { prefix: String::new(), rows });
+            return Some(BlockRows { prefix: String::new(), rows, joinable: true });
         }
         let block: &Block = match self.layout.blocks.as_slice() {
             [block] => block,
@@ -147,7 +180,7 @@ impl<'a> Display<'a> {
         if !has_statements(&block.name) {
             rows.iter_mut().for_each(|row| row.end = self.first_cell_end(row));
         }
-        Some(BlockRows { prefix, rows: self.written_rows(&rows) })
+        Some(BlockRows { prefix, rows: self.written_rows(&rows), joinable: has_statements(&block.name) })
     }
 
     /// The places in the file of the rows that hold something.
@@ -163,12 +196,30 @@ impl<'a> Display<'a> {
     }
 }
 
-/// The `>` at the beginning of the lines of a display that stands in a block quote.
-fn quote_marks(source: &str, content: &Span) -> Vec<Span> {
-    let before = source.get(..content.start).unwrap_or_default();
-    let line = before.get(before.rfind('\n').map_or(0, |at| at + 1)..).unwrap_or_default();
+/// A display's content without the blanks and quote marks at its ends.
+fn without_quote_marks(source: &str, content: Span, marks: &[Span]) -> Span {
+    let mut content = trimmed(source, content);
+    for mark in marks {
+        if mark.start != content.start || content.is_empty() {
+            break;
+        }
+        content = trimmed(source, mark.end.min(content.end)..content.end);
+    }
+    for mark in marks.iter().rev() {
+        if mark.end != content.end || content.is_empty() {
+            break;
+        }
+        content = trimmed(source, content.start..mark.start);
+    }
+    content
+}
+
+/// The `>` at the beginning of the lines of a display that stands in a block quote, if `line`, where it is opened, begins
+/// with such marks. Only the first 100 characters of a line are marks.
+fn quote_marks(source: &str, line: usize, content: &Span) -> Vec<Span> {
+    let line = source.get(line..content.start).unwrap_or_default();
     let is_mark = |c: &char| matches!(c, ' ' | '\t' | '>');
-    let depth = line.chars().take_while(is_mark).filter(|c| *c == '>').count();
+    let depth = line.chars().take(100).take_while(is_mark).filter(|c| *c == '>').count();
     let mut marks = Vec::new();
     if depth == 0 {
         return marks;
@@ -176,7 +227,7 @@ fn quote_marks(source: &str, content: &Span) -> Vec<Span> {
     let text = source.get(content.clone()).unwrap_or_default();
     for (at, _) in text.match_indices('\n') {
         let line = text.get(at + 1..).unwrap_or_default();
-        let prefix = line.char_indices().take_while(|(_, c)| is_mark(c)).filter(|(_, c)| *c == '>');
+        let prefix = line.char_indices().take(100).take_while(|(_, c)| is_mark(c)).filter(|(_, c)| *c == '>');
         marks.extend(prefix.take(depth).map(|(mark, _)| {
             let mark = content.start + at + 1 + mark;
             mark..mark + 1

@@ -10,6 +10,7 @@
 //!   that is not there, is not UTF-8, or holds no equation is a [`ReadError`].
 
 pub mod annotation;
+mod assembly;
 pub mod declaration;
 mod display;
 pub mod label;
@@ -53,6 +54,7 @@ pub struct Document {
 }
 
 /// A part of a document.
+#[expect(clippy::large_enum_variant, reason = "nearly all items are equations")]
 #[derive(Clone, Debug, PartialEq)]
 pub enum Item {
     /// A heading.

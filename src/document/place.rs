@@ -63,10 +63,15 @@ impl Lines {
         self.starts.partition_point(|start| *start <= offset)
     }
 
+    /// Where the line of a byte begins.
+    pub fn start(&self, offset: usize) -> usize {
+        self.starts.get(self.line(offset).saturating_sub(1)).copied().unwrap_or(0)
+    }
+
     /// The line of a byte and its column in characters, both counted from 1. `source` is the text the lines are of.
     pub fn line_column(&self, source: &str, offset: usize) -> (usize, usize) {
         let line = self.line(offset);
-        let start = self.starts.get(line.saturating_sub(1)).copied().unwrap_or(0);
+        let start = self.start(offset);
         let before = source.as_bytes().get(start..offset.min(source.len())).unwrap_or_default();
         (line, String::from_utf8_lossy(before).chars().count() + 1)
     }

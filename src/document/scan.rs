@@ -4,7 +4,9 @@
 //! therefore found first, in one pass in which whatever opens first wins. Displays are `$$ .. $$`, `\[ .. \]`, and
 //! `\begin{equation} .. \end{equation}` and its like, starred or not. A display may hold blank lines as long as
 //! mathematics follows them. Where prose follows, or a heading, or an inline formula, or another display opens, the
-//! display was not closed: it ends at that blank line, and what comes after it is read as if nothing had happened.
+//! display was not closed: it ends at that blank line, and what comes after it is read as if nothing had happened. A
+//! `$$` opens rather than closes if it stands first in its line, mathematics follows it, and it is closed in that line or
+//! stands below a blank line.
 
 use super::layout::environment_arguments;
 use super::place::Span;
@@ -222,13 +224,14 @@ impl<'a> Scanner<'a> {
     fn is_left_open(&self, opener: Opener, inner: usize, close: usize) -> bool {
         let content = self.source.get(inner..close).unwrap_or_default();
         let prose = blank_line(content).is_some_and(|(_, after)| is_prose(content.get(after..).unwrap_or_default()));
-        if prose || opener != Opener::Dollars || !content.contains('\n') || !self.begins_line(close) {
+        let begins_line = content.contains('\n') && self.begins_line(close);
+        if prose || opener != Opener::Dollars || !begins_line {
             return prose;
         }
-        // `$$` at the beginning of a line, closed in the same line.
         let rest = self.from(close + 2);
-        let line = rest.get(..rest.find('\n').unwrap_or(rest.len())).unwrap_or_default();
-        line.matches("$$").count() % 2 == 1 && !line.trim_start().starts_with("$$")
+        let line = rest.lines().next().unwrap_or_default();
+        let is_closed_in_line = line.matches("$$").count() % 2 == 1 && !line.trim_start().starts_with("$$");
+        (is_closed_in_line || ends_with_blank_line(content)) && begins_with_mathematics(rest)
     }
 
     /// The next blank line or opening of a display or comment.
@@ -305,15 +308,35 @@ fn begins_with_blank_line(text: &str) -> bool {
     rest.trim_start_matches(|c: char| c == '>' || (c.is_whitespace() && c != '\n')).starts_with('\n')
 }
 
-/// Whether a text that stands where mathematics is expected is prose: a heading, code, a comment, an inline formula, two
+/// Whether the last line but the one that a text ends in is blank.
+fn ends_with_blank_line(text: &str) -> bool {
+    let mut lines = text.rsplit('\n').skip(1);
+    let is_blank = |line: &str| line.trim_matches(|c: char| c.is_whitespace() || c == '>').is_empty();
+    lines.next().is_some_and(is_blank) && lines.next().is_some()
+}
+
+/// Whether what follows a `$$` looks like the content of a display and not like the text after one.
+fn begins_with_mathematics(text: &str) -> bool {
+    let content = text.split("$$").next().unwrap_or_default();
+    let end =
+        if begins_with_blank_line(content) { 0 } else { blank_line(content).map_or(content.len(), |(end, _)| end) };
+    let content = content.get(..end).unwrap_or_default();
+    let is_empty = content.trim_matches(|c: char| c.is_whitespace() || ",.;:。、，．".contains(c)).is_empty();
+    !is_empty && !is_prose(content)
+}
+
+/// Whether a text that stands where mathematics is expected is prose: a heading after a blank line, code, a comment, an inline formula, two
 /// words side by side, or a run of Japanese, words within `\text{..}` and the like aside.
 fn is_prose(text: &str) -> bool {
-    text.lines().any(|line| {
+    let mut after_blank = true;
+    let has_marks = text.lines().any(|line| {
         let line = line.trim_start_matches([' ', '\t', '>']);
         let heading = line.trim_start_matches('#');
-        let is_heading = heading.len() < line.len() && heading.starts_with(' ');
+        let is_heading = after_blank && heading.len() < line.len() && heading.starts_with(' ');
+        after_blank = line.trim().is_empty();
         is_heading || ["```", "~~~", "<!--"].iter().any(|mark| line.starts_with(mark))
-    }) || has_words(text)
+    });
+    has_marks || has_words(text)
 }
 
 /// Whether a text holds a dollar, two words of two letters or more side by side, or four letters of a script that is

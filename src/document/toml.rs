@@ -26,18 +26,24 @@ pub(super) enum Kind {
 /// The entries of a table in the order of the file.
 pub(super) type Table = Vec<(Spanned<String>, Value)>;
 
-/// Reads the TOML at a range of the file.
-pub(super) fn parse(source: &str, range: Span) -> Result<Table, Problem> {
+/// Reads the TOML at a range of the file. A text that holds a control character is a problem, too: `"\theta"` in double
+/// quotes is a tab and `heta`.
+pub(super) fn parse(source: &str, range: Span, problems: &mut Vec<Problem>) -> Option<Table> {
     let text = source.get(range.clone()).unwrap_or_default();
-    let table = DeTable::parse(text).map_err(|error| {
-        let within = error.span().unwrap_or(0..text.len());
-        let span = range.start + within.start..range.start + within.end;
-        Problem::error("document::toml", "the annotation is not valid TOML", whole_characters(source, span))
-            .label(error.message().replace('\n', ", "))
-            .help("write LaTeX in single quotes, where a backslash is a backslash: given = ['39'], reading = 'a = b'")
-    })?;
-    Ok(place_table(table.into_inner(), source, range.start))
+    match DeTable::parse(text) {
+        Ok(table) => Some(Placer { source, offset: range.start, problems }.table(table.into_inner())),
+        Err(error) => {
+            let within = error.span().unwrap_or(0..text.len());
+            let span = whole_characters(source, range.start + within.start..range.start + within.end);
+            let problem = Problem::error("document::toml", "the annotation is not valid TOML", span);
+            problems.push(problem.label(error.message().replace('\n', ", ")).help(IN_SINGLE_QUOTES));
+            None
+        }
+    }
 }
+
+const IN_SINGLE_QUOTES: &str =
+    r"write LaTeX in single quotes, where a backslash is a backslash: reading = 'a = \theta'";
 
 /// The span widened to whole characters, and to one character where it is empty and one is there.
 fn whole_characters(source: &str, span: Span) -> Span {
@@ -46,57 +52,76 @@ fn whole_characters(source: &str, span: Span) -> Span {
     start..end
 }
 
-fn place_table(table: DeTable, source: &str, offset: usize) -> Table {
-    let mut entries: Table = table
-        .into_iter()
-        .map(|(key, value)| {
-            let span = offset + key.span().start..offset + key.span().end;
-            let key = place_text(key.into_inner().into_owned(), span, source);
-            let span = offset + value.span().start..offset + value.span().end;
-            (key, place_value(value.into_inner(), span, source, offset))
-        })
-        .collect();
-    entries.sort_by_key(|(key, _)| key.span.start);
-    entries
+/// Gives TOML's values their places in the file.
+struct Placer<'a> {
+    source: &'a str,
+    /// Where the TOML begins in the file.
+    offset: usize,
+    problems: &'a mut Vec<Problem>,
 }
 
-/// TOML itself limits how deep values nest, and so this recursion.
-fn place_value(value: DeValue, span: Span, source: &str, offset: usize) -> Value {
-    let written = || source.get(span.clone()).unwrap_or_default().to_owned();
-    let kind = match value {
-        DeValue::String(text) => Kind::Text(place_text(text.into_owned(), span.clone(), source)),
-        DeValue::Integer(number) => {
-            let value = i64::from_str_radix(number.as_str(), number.radix()).map_or(f64::NAN, |value| value as f64);
-            Kind::Number(value, written())
+impl Placer<'_> {
+    fn span(&self, span: Span) -> Span {
+        self.offset + span.start..self.offset + span.end
+    }
+
+    fn table(&mut self, table: DeTable) -> Table {
+        let mut entries: Table = Vec::new();
+        for (key, value) in table {
+            let span = self.span(key.span());
+            let key = self.text(key.into_inner().into_owned(), span);
+            entries.push((key, self.value(value)));
         }
-        DeValue::Float(number) => Kind::Number(number.as_str().parse().unwrap_or(f64::NAN), written()),
-        DeValue::Boolean(value) => Kind::Bool(value),
-        DeValue::Datetime(_) => Kind::Date,
-        DeValue::Table(table) => Kind::Table(place_table(table, source, offset)),
-        DeValue::Array(values) => {
-            let place = |value: ::toml::Spanned<DeValue>| {
-                let span = offset + value.span().start..offset + value.span().end;
-                place_value(value.into_inner(), span, source, offset)
-            };
-            Kind::Array(values.into_iter().map(place).collect())
+        entries.sort_by_key(|(key, _)| key.span.start);
+        entries
+    }
+
+    /// TOML itself limits how deep values nest, and so this recursion.
+    fn value(&mut self, value: ::toml::Spanned<DeValue>) -> Value {
+        let span = self.span(value.span());
+        let written = self.source.get(span.clone()).unwrap_or_default();
+        let kind = match value.into_inner() {
+            DeValue::String(text) => Kind::Text(self.text(text.into_owned(), span.clone())),
+            DeValue::Integer(number) => {
+                let value = i64::from_str_radix(number.as_str(), number.radix()).map_or(f64::NAN, |value| value as f64);
+                Kind::Number(value, written.to_owned())
+            }
+            DeValue::Float(number) => Kind::Number(number.as_str().parse().unwrap_or(f64::NAN), written.to_owned()),
+            DeValue::Boolean(value) => Kind::Bool(value),
+            DeValue::Datetime(_) => Kind::Date,
+            DeValue::Table(table) => Kind::Table(self.table(table)),
+            DeValue::Array(values) => Kind::Array(values.into_iter().map(|value| self.value(value)).collect()),
+        };
+        Value { kind, span }
+    }
+
+    /// A text at the place of its letters, where they stand in the file as they are, else at the place of the whole value.
+    fn text(&mut self, text: String, span: Span) -> Spanned<String> {
+        let written = self.source.get(span.clone()).unwrap_or_default();
+        let quotes = written.bytes().take_while(|byte| matches!(byte, b'\'' | b'"')).take(3).count();
+        let quotes = if text.is_empty() { written.len() / 2 } else { quotes };
+        let line_break = written.get(quotes..).map_or(0, |rest| match rest {
+            _ if quotes < 3 || rest.starts_with(&text) => 0,
+            rest => rest.find('\n').map_or(0, |at| at + 1),
+        });
+        let start = quotes + line_break;
+        if written.get(start..).is_some_and(|rest| rest.starts_with(&text)) {
+            return Spanned::new(text.clone(), span.start + start..span.start + start + text.len());
         }
-    };
-    Value { kind, span }
+        if let Some(control) = text.chars().find(|c| c.is_control()) {
+            let problem =
+                Problem::error("document::control_character", "a macro was taken for an escape", span.clone());
+            let label = format!("this text holds the control character {}", control.escape_debug());
+            self.problems.push(problem.label(label).help(IN_SINGLE_QUOTES));
+        }
+        Spanned::new(text, span)
+    }
 }
 
-/// A text at the place of its letters, where they stand in the file as they are, else at the place of the whole value.
-fn place_text(text: String, span: Span, source: &str) -> Spanned<String> {
-    let written = source.get(span.clone()).unwrap_or_default();
-    let quotes = written.bytes().take_while(|byte| matches!(byte, b'\'' | b'"')).take(3).count();
-    let quotes = if text.is_empty() { written.len() / 2 } else { quotes };
-    let line_break = written.get(quotes..).map_or(0, |rest| match rest {
-        _ if quotes < 3 || rest.starts_with(&text) => 0,
-        rest => rest.find('\n').map_or(0, |at| at + 1),
-    });
-    let start = quotes + line_break;
-    let verbatim = written.get(start..).is_some_and(|rest| rest.starts_with(&text));
-    let span = if verbatim { span.start + start..span.start + start + text.len() } else { span };
-    Spanned::new(text, span)
+/// A key as it is to be written.
+fn written(key: &Spanned<String>) -> String {
+    let is_bare = |c: char| c.is_ascii_alphanumeric() || matches!(c, '_' | '-');
+    if !key.value.is_empty() && key.value.chars().all(is_bare) { key.value.clone() } else { format!("'{}'", key.value) }
 }
 
 /// Reads values as what a key demands. Everything that does not fit becomes a problem and nothing else.
@@ -134,7 +159,7 @@ impl Reader<'_> {
         match &value.kind {
             Kind::Text(text) => Some(text.clone()),
             _ => {
-                self.wrong(key, value, "a text", &format!("{} = 'text'", key.value));
+                self.wrong(key, value, "a text", &format!("{} = 'text'", written(key)));
                 None
             }
         }
@@ -165,7 +190,7 @@ impl Reader<'_> {
         for value in values {
             match &value.kind {
                 Kind::Text(text) => texts.push(text.clone()),
-                _ => self.wrong(key, value, "a text or a list of texts", &format!("{} = ['39', '40']", key.value)),
+                _ => self.wrong(key, value, "a text or a list of texts", &format!("{} = ['39', '40']", written(key))),
             }
         }
         texts
@@ -182,7 +207,7 @@ impl Reader<'_> {
                 return Some(three);
             }
         }
-        self.wrong(key, value, "a list of three texts", &format!(r"{} = ['\xi', '\eta', '\zeta']", key.value));
+        self.wrong(key, value, "a list of three texts", &format!(r"{} = ['\xi', '\eta', '\zeta']", written(key)));
         None
     }
 
@@ -190,7 +215,7 @@ impl Reader<'_> {
         match value.kind {
             Kind::Bool(value) => value,
             _ => {
-                self.wrong(key, value, "true or false", &format!("{} = true", key.value));
+                self.wrong(key, value, "true or false", &format!("{} = true", written(key)));
                 false
             }
         }
@@ -200,7 +225,7 @@ impl Reader<'_> {
         match value.kind {
             Kind::Number(number, _) if number.is_finite() => Some(number),
             _ => {
-                self.wrong(key, value, "a number", &format!("{} = 2", key.value));
+                self.wrong(key, value, "a number", &format!("{} = 2", written(key)));
                 None
             }
         }
@@ -211,7 +236,7 @@ impl Reader<'_> {
         match value.kind {
             Kind::Number(number, _) if (0.0..=1e9).contains(&number) && number.fract() == 0.0 => Some(number as usize),
             _ => {
-                self.wrong(key, value, "a whole number, zero or more", &format!("{} = 2", key.value));
+                self.wrong(key, value, "a whole number, zero or more", &format!("{} = 2", written(key)));
                 None
             }
         }
@@ -219,7 +244,7 @@ impl Reader<'_> {
 
     /// Two numbers, the smaller first.
     pub(super) fn range(&mut self, key: &Spanned<String>, value: &Value) -> Option<[f64; 2]> {
-        let example = format!("{} = [0.5, 2.0]", key.value);
+        let example = format!("{} = [0.5, 2.0]", written(key));
         let [low, high] = self.pair(key, value, "a list of two numbers, the smaller first", &example)?;
         if !low.is_finite() || !high.is_finite() {
             let problem = Problem::error("document::range", "a range must be finite", value.span.clone());
@@ -239,7 +264,7 @@ impl Reader<'_> {
     pub(super) fn index_range(&mut self, key: &Spanned<String>, value: &Value) -> Option<[i64; 2]> {
         let [low, high] = self.range(key, value)?;
         if low.fract() != 0.0 || high.fract() != 0.0 || low.abs() > 1e9 || high.abs() > 1e9 {
-            self.wrong(key, value, "a list of two whole numbers", &format!("{} = [1, 4]", key.value));
+            self.wrong(key, value, "a list of two whole numbers", &format!("{} = [1, 4]", written(key)));
             return None;
         }
         Some([low as i64, high as i64])
@@ -248,7 +273,7 @@ impl Reader<'_> {
     /// Two whole numbers greater than zero: rows and columns.
     pub(super) fn shape(&mut self, key: &Spanned<String>, value: &Value) -> Option<[usize; 2]> {
         let expected = "a list of two whole numbers: rows, columns";
-        let example = format!("{} = [3, 3]", key.value);
+        let example = format!("{} = [3, 3]", written(key));
         let shape = self.pair(key, value, expected, &example)?;
         if shape.iter().any(|size| !(1.0..=1e4).contains(size) || size.fract() != 0.0) {
             self.wrong(key, value, expected, &example);
