@@ -30,6 +30,8 @@ pub struct Chart {
 pub struct LegendEntry {
     /// The class of the line: `line-1`, or `dash-1` where it is dashed.
     pub class: String,
+    /// The class of its markers: `fill-1`, or `ring-1` where they are rings; none where its points are not marked.
+    pub marker: Option<String>,
     /// What it is; `$...$` is mathematics.
     pub label: String,
 }
@@ -95,8 +97,11 @@ pub fn heavy_top() -> Result<Vec<Chart>, ChartError> {
     Ok(vec![conservation()?, precession()?, nutation()?])
 }
 
-/// The constants of the motion, whose drift is drawn.
-const CONSTANTS: [(&str, fn(&TopState) -> f64); 3] = [
+/// A constant of the motion, with its name.
+type Constant = (&'static str, fn(&TopState) -> f64);
+
+/// The constants of the motion whose drift is drawn.
+const CONSTANTS: [Constant; 3] = [
     ("$L_z$", |state| TOP.vertical_momentum(state)),
     ("energy", |state| TOP.energy(state)),
     (r"$\omega_\zeta$", TopState::spin),
@@ -132,7 +137,7 @@ fn conservation() -> Result<Chart, ChartError> {
         for (i, colour) in (0..CONSTANTS.len()).zip(1..) {
             let points = rows.iter().enumerate().map(|(n, row)| ((n + 1) as f64, row[i])).collect();
             series.push(Series { colour, dashed, markers: false, points });
-            legend.push(entry(colour, dashed, format!("{}, {}", CONSTANTS[i].0, method.name)));
+            legend.push(entry(colour, dashed, false, format!("{}, {}", CONSTANTS[i].0, method.name)));
         }
         columns.push(rows);
     }
@@ -199,8 +204,8 @@ fn precession() -> Result<Chart, ChartError> {
         order(&fast),
     );
     let legend = vec![
-        entry(1, false, "slow, $mgl / (I_1 \\Omega)$".to_owned()),
-        entry(2, true, "fast, $I_1 \\Omega / (I_0 \\cos \\theta)$".to_owned()),
+        entry(1, false, true, "slow, $mgl / (I_1 \\Omega)$".to_owned()),
+        entry(2, true, true, "fast, $I_1 \\Omega / (I_0 \\cos \\theta)$".to_owned()),
     ];
     let series = [
         Series { colour: 1, dashed: false, markers: true, points: slow },
@@ -232,8 +237,10 @@ fn nutation() -> Result<Chart, ChartError> {
         order(&let_go),
         order(&small),
     );
-    let legend =
-        vec![entry(1, false, "let go from rest".to_owned()), entry(2, true, "infinitesimal nutation".to_owned())];
+    let legend = vec![
+        entry(1, false, true, "let go from rest".to_owned()),
+        entry(2, true, true, "infinitesimal nutation".to_owned()),
+    ];
     let series = [
         Series { colour: 1, dashed: false, markers: true, points: let_go },
         Series { colour: 2, dashed: true, markers: true, points: small },
@@ -251,8 +258,9 @@ fn error_axis() -> Axis {
     Axis { label: "relative error", range: 1e-6..1.0, logarithmic: true }
 }
 
-fn entry(colour: u8, dashed: bool, label: String) -> LegendEntry {
-    LegendEntry { class: format!("{}-{colour}", if dashed { "dash" } else { "line" }), label }
+fn entry(colour: u8, dashed: bool, markers: bool, label: String) -> LegendEntry {
+    let (line, marker) = if dashed { ("dash", "ring") } else { ("line", "fill") };
+    LegendEntry { class: format!("{line}-{colour}"), marker: markers.then(|| format!("{marker}-{colour}")), label }
 }
 
 fn chart(id: &str, title: &str, caption: String, svg: String, legend: Vec<LegendEntry>, table: Table) -> Chart {

@@ -153,7 +153,7 @@ fn chart() -> Chart {
         title: "A chart".into(),
         caption: "Of $x$ & nothing else.".into(),
         svg: "<svg viewBox=\"0 0 1 1\" role=\"img\" aria-label=\"A chart\"></svg>\n".into(),
-        legend: vec![charts::LegendEntry { class: "line-1".into(), label: "$L_z$".into() }],
+        legend: vec![charts::LegendEntry { class: "line-1".into(), marker: None, label: "$L_z$".into() }],
         table: charts::Table { head: vec!["$x$".into(), "y".into()], rows: vec![vec!["1".into(), "2".into()]] },
     }
 }

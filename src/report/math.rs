@@ -1,5 +1,6 @@
 //! LaTeX shown as MathML, which browsers draw themselves: no script, no fonts, no network.
 
+use super::mathml::canonical;
 use super::text::escape;
 use katex::types::{OutputFormat, Settings};
 use katex::{KatexContext, render_to_string};
@@ -10,7 +11,7 @@ pub(super) const DEEPEST: usize = 60;
 const LONGEST: usize = 40_000;
 
 /// The colour by which a part is marked on its way through katex; it leaves as the class `changed`.
-const MARK: &str = "#c0ffee";
+pub(super) const MARK: &str = "#c0ffee";
 
 /// Renders LaTeX.
 pub(super) struct Renderer {
@@ -109,51 +110,6 @@ pub(super) fn nesting(latex: &str) -> usize {
     deepest
 }
 
-/// The `math` element alone, its attributes in alphabetical order (katex keeps them in a hash table, whose order differs
-/// from run to run), without the copy of the source that katex adds, and with marks made classes.
-///
-/// `None` if there is no `math` element. katex escapes `<` and `>` in texts and attribute values, so each of them left
-/// begins or ends a tag.
-fn canonical(markup: &str) -> Option<String> {
-    let begin = markup.find("<math")?;
-    let end = markup.rfind("</math>")? + "</math>".len();
-    let mut html = String::with_capacity(markup.len());
-    let mut rest = markup.get(begin..end)?;
-    while let Some(open) = rest.find('<') {
-        html.push_str(&rest[..open]);
-        let length = rest[open..].find('>')? + 1;
-        let tag = &rest[open..open + length];
-        rest = &rest[open + length..];
-        if tag.starts_with("<annotation") {
-            rest = &rest[rest.find("</annotation>")? + "</annotation>".len()..];
-        } else if !matches!(tag, "<semantics>" | "</semantics>") {
-            html.push_str(&canonical_tag(tag));
-        }
-    }
-    html.push_str(rest);
-    Some(html)
-}
-
-fn canonical_tag(tag: &str) -> String {
-    let inner = tag.trim_start_matches('<').trim_end_matches('>').trim_end_matches('/');
-    let Some((name, mut rest)) = inner.split_once(' ') else { return tag.to_owned() };
-    let mut attributes = Vec::new();
-    while let Some((key, after)) = rest.split_once("=\"") {
-        let Some((value, after)) = after.split_once('"') else { break };
-        match (key.trim(), value) {
-            // HTML knows the element's namespace.
-            ("xmlns", _) => {}
-            ("mathcolor", MARK) => attributes.push(("class", "changed")),
-            attribute => attributes.push(attribute),
-        }
-        rest = after;
-    }
-    attributes.sort_unstable();
-    let attributes: String = attributes.iter().map(|(key, value)| format!(" {key}=\"{value}\"")).collect();
-    let close = if tag.ends_with("/>") { "/>" } else { ">" };
-    format!("<{name}{attributes}{close}")
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -223,6 +179,20 @@ mod tests {
         let html = Renderer::new().prose("if $a<b$ & `x<y`, not 5$");
         assert!(html.starts_with("if <math>"), "{html}");
         assert!(html.ends_with(" &amp; <code>x&lt;y</code>, not 5$"), "{html}");
+    }
+
+    /// Every display of real lecture notes, damaged ones included, is shown as mathematics.
+    #[test]
+    fn displays_of_real_notes_are_shown() {
+        let notes = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/notes");
+        let Ok(files) = std::fs::read_dir(&notes) else { return println!("skipped: no {}", notes.display()) };
+        let renderer = Renderer::new();
+        for file in files {
+            let text = std::fs::read_to_string(file.unwrap().path()).unwrap();
+            let displays: Vec<_> = text.split("$$").skip(1).step_by(2).collect();
+            let shown = displays.iter().filter(|latex| renderer.display(latex).starts_with("<math")).count();
+            assert_eq!(shown, displays.len());
+        }
     }
 
     #[test]

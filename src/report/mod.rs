@@ -8,6 +8,7 @@ mod diff;
 pub mod html;
 pub mod json;
 mod math;
+mod mathml;
 mod svg;
 pub mod terminal;
 mod text;

@@ -29,8 +29,8 @@ pub(super) struct Axis {
 }
 
 /// The canvas, in the units of the SVG's `viewBox`.
-const SIZE: (u32, u32) = (1280, 760);
-const TEXT: i32 = 34;
+const SIZE: (u32, u32) = (960, 600);
+const TEXT: i32 = 30;
 const INK: RGBColor = RGBColor(1, 1, 1);
 const GRID: RGBColor = RGBColor(2, 2, 2);
 
@@ -91,8 +91,8 @@ pub(super) fn plot(title: &str, x: &Axis, y: &Axis, series: &[Series]) -> Result
         let mut chart = ChartBuilder::on(&area)
             .margin(16)
             .margin_right(36)
-            .x_label_area_size(92)
-            .y_label_area_size(128)
+            .x_label_area_size(84)
+            .y_label_area_size(116)
             .build_cartesian_2d(x.clone(), y.clone())
             .map_err(ChartError::drawing)?;
         chart
@@ -110,10 +110,10 @@ pub(super) fn plot(title: &str, x: &Axis, y: &Axis, series: &[Series]) -> Result
             let inside = |v: f64, axis: &Axis| v >= axis.range.start && v <= axis.range.end;
             let points = line.points.iter().filter(|p| inside(p.0, x) && inside(p.1, y));
             let points: Vec<_> = points.copied().collect();
-            chart.draw_series(LineSeries::new(points.clone(), colour.stroke_width(4))).map_err(ChartError::drawing)?;
+            chart.draw_series(LineSeries::new(points.clone(), colour.stroke_width(3))).map_err(ChartError::drawing)?;
             if line.markers {
                 let style = if line.dashed { colour.stroke_width(3) } else { colour.filled() };
-                let radius = if line.dashed { 12 } else { 7 };
+                let radius = if line.dashed { 10 } else { 6 };
                 chart
                     .draw_series(points.iter().map(|p| Circle::new(*p, radius, style)))
                     .map_err(ChartError::drawing)?;

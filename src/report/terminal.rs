@@ -1,6 +1,6 @@
 //! The summary for the terminal.
 
-use super::text::{duration, symbol, word};
+use super::text::{duration, reason, symbol, word};
 use super::{Counts, Options, Run, counts};
 use crate::check::verdict::{DocumentReport, Judgement, Verdict};
 use std::fmt::Write;
@@ -62,8 +62,7 @@ fn line(text: &mut String, document: &DocumentReport, j: &Judgement, paint: Pain
     } else if j.expect == Some(j.verdict) {
         write!(text, ", as expected")?;
     }
-    let reason = j.reason.as_ref().or_else(|| j.links.iter().find(|l| l.verdict == j.verdict)?.reason.as_ref());
-    if let Some(reason) = reason {
+    if let Some(reason) = reason(j) {
         write!(text, ": {}", one_line(reason))?;
     }
     writeln!(text)?;

@@ -2,14 +2,23 @@ use super::*;
 
 const UNTIMED: Options = Options { times: false };
 
+/// A new version of Kenzan is no new report.
+fn unversioned(report: &str) -> String {
+    report.replace(env!("CARGO_PKG_VERSION"), "[version]")
+}
+
 #[test]
 fn html_snapshot() {
-    insta::assert_snapshot!(html::render(&fixture::run(), UNTIMED).unwrap());
+    let page = html::render(&fixture::run(), UNTIMED).unwrap();
+    // The style sheet has its own file.
+    let (before, rest) = page.split_once("<style>").unwrap();
+    let (_, after) = rest.split_once("</style>").unwrap();
+    insta::assert_snapshot!(unversioned(&format!("{before}{after}")));
 }
 
 #[test]
 fn json_snapshot() {
-    insta::assert_snapshot!(json::render(&fixture::run(), UNTIMED).unwrap());
+    insta::assert_snapshot!(unversioned(&json::render(&fixture::run(), UNTIMED).unwrap()));
 }
 
 #[test]
@@ -77,6 +86,45 @@ fn the_page_needs_nothing_else() {
     }
     assert!(page.contains("gyroscope-56") && page.contains("class=\"changed\""));
     assert!(page.contains("回転 &lt;rotation&gt;"));
+}
+
+/// Every text of a run may come from notes that nobody trusts.
+#[test]
+fn hostile_notes_stay_text() {
+    let hostile = "\"><script>alert('x')</script>{{ 7 * 7 }}</style>";
+    let mut run = fixture::run();
+    let document = &mut run.documents[0];
+    for text in [&mut document.name, &mut document.path, &mut document.title] {
+        *text = hostile.into();
+    }
+    document.problems = vec![hostile.into()];
+    for judgement in &mut document.equations {
+        for text in [&mut judgement.label, &mut judgement.section, &mut judgement.latex, &mut judgement.kind] {
+            *text = hostile.into();
+        }
+        judgement.because = Some(hostile.into());
+        judgement.reason = Some(hostile.into());
+        judgement.reading = Some(hostile.into());
+        judgement.given = vec![hostile.into()];
+        judgement.assumptions = vec![hostile.into()];
+        for link in &mut judgement.links {
+            link.latex = hostile.into();
+        }
+        if let Some(counterexample) = &mut judgement.counterexample {
+            counterexample.lhs = hostile.into();
+            counterexample.component = Some(hostile.into());
+            counterexample.state[0].symbol = hostile.into();
+            counterexample.state[0].value = hostile.into();
+        }
+        if let Some(correction) = &mut judgement.correction {
+            correction.latex = hostile.into();
+        }
+    }
+    let page = html::render(&run, UNTIMED).unwrap();
+    assert!(!page.contains("<script") && !page.contains("49"));
+    assert_eq!(page.matches("</style>").count(), 1);
+    let quoted = |tag: &str| tag.matches('"').count().is_multiple_of(2);
+    assert!(page.split('<').skip(1).all(|rest| rest.split_once('>').is_some_and(|(tag, _)| quoted(tag))));
 }
 
 #[test]

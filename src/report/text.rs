@@ -1,6 +1,6 @@
 //! Words and numbers that every report shares.
 
-use crate::check::verdict::{Strength, Verdict};
+use crate::check::verdict::{Judgement, Strength, Verdict};
 
 /// A verdict's name, which is its name in `report.json` and its CSS class, too.
 pub(super) fn word(verdict: Verdict) -> &'static str {
@@ -37,6 +37,12 @@ pub(super) fn strength(strength: Strength) -> &'static str {
         Strength::Asymptotic => "asymptotic",
         Strength::Shape => "shape",
     }
+}
+
+/// Why an equation has its verdict: its own reason, or else that of the first link that has the equation's verdict.
+pub(super) fn reason(judgement: &Judgement) -> Option<&str> {
+    let deciding = || judgement.links.iter().find(|link| link.verdict == judgement.verdict)?.reason.as_deref();
+    judgement.reason.as_deref().or_else(deciding)
 }
 
 /// A number with `digits` significant digits: `0.125`, `3.1×10⁻¹⁷`.

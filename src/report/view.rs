@@ -80,6 +80,8 @@ struct Equation {
     assumptions_html: Vec<String>,
     because_html: Option<String>,
     reason_html: Option<String>,
+    /// The reason in a list of equations: that of the link that decides, where the equation has none of its own.
+    why_html: Option<String>,
     links: Vec<LinkView>,
     counterexample: Option<CounterexampleView>,
     order: Option<OrderView>,
@@ -255,6 +257,7 @@ impl Builder {
             assumptions_html: j.assumptions.iter().map(|a| self.renderer.inline(a)).collect(),
             because_html: j.because.as_ref().map(|b| self.renderer.prose(b)),
             reason_html: reason.map(|r| self.renderer.prose(r)),
+            why_html: super::text::reason(j).map(|r| self.renderer.prose(r)),
             links: if only.is_some() { Vec::new() } else { j.links.iter().map(|l| self.link(l)).collect() },
             counterexample: j.counterexample.as_ref().map(|c| self.counterexample(c)),
             order: only.and_then(|l| l.order.as_ref()).map(|o| self.order(o)),
@@ -357,7 +360,7 @@ fn facts(
     states: usize,
 ) -> Vec<String> {
     let mut facts: Vec<_> = s.map(|s| strength(s).to_owned()).into_iter().collect();
-    facts.extend(bits.map(|b| format!("{b} bits")));
+    facts.extend(bits.map(|b| format!("{b} bit{}", if b == 1 { "" } else { "s" })));
     facts.extend(residual.map(|r| format!("residual {}", number(r, 2))));
     match states {
         0 => {}

@@ -1,6 +1,6 @@
 //! A chart as the templates are given it.
 
-use super::Chart;
+use super::charts::{Chart, LegendEntry};
 use super::math::Renderer;
 use serde::Serialize;
 
@@ -18,11 +18,16 @@ pub(super) struct View {
 #[derive(Serialize)]
 struct Entry {
     class: String,
+    marker: Option<String>,
     label_html: String,
 }
 
 pub(super) fn view(chart: &Chart, renderer: &Renderer) -> View {
-    let entry = |e: &super::charts::LegendEntry| Entry { class: e.class.clone(), label_html: renderer.prose(&e.label) };
+    let entry = |e: &LegendEntry| Entry {
+        class: e.class.clone(),
+        marker: e.marker.clone(),
+        label_html: renderer.prose(&e.label),
+    };
     View {
         id: chart.id.clone(),
         title: chart.title.clone(),
