@@ -1,7 +1,7 @@
 //! Which row breaks, alignment marks and wide spaces mean something.
 //!
-//! A row break within brackets is passed over, and so is one before a row that continues the row above. Alignment marks
-//! only mean something in matrices. A wide space between two statements separates them like a comma.
+//! A row break within brackets is passed over, and so is one before a row that continues the row above. Outside
+//! matrices an alignment mark is a wide space, and a wide space between two operands separates them like a comma.
 
 use super::error::ParseError;
 use super::token::{Environment, Token, TokenKind};
@@ -10,8 +10,8 @@ use super::token::{Environment, Token, TokenKind};
 ///
 /// # Errors
 /// An alignment mark stands where there is nothing to align.
-pub(super) fn lay_out(source: &str, tokens: Vec<Token>) -> Result<Vec<Token>, ParseError> {
-    let keep = rows(source, &tokens)?;
+pub(super) fn lay_out(source: &str, mut tokens: Vec<Token>) -> Result<Vec<Token>, ParseError> {
+    let keep = rows(source, &mut tokens)?;
     let mut kept: Vec<Token> = tokens.into_iter().zip(keep).filter(|(_, keep)| *keep).map(|(token, _)| token).collect();
     let separates = spaces(&kept);
     for (token, separates) in kept.iter_mut().zip(separates) {
@@ -64,15 +64,18 @@ impl RowSoFar {
 }
 
 /// Which tokens stay: all but the row breaks and alignment marks that mean nothing.
-fn rows(source: &str, tokens: &[Token]) -> Result<Vec<bool>, ParseError> {
+fn rows(source: &str, tokens: &mut [Token]) -> Result<Vec<bool>, ParseError> {
     let mut keep = vec![true; tokens.len()];
     let mut places = vec![Place { kind: PlaceKind::Rows, aligned: true, row: RowSoFar::default() }];
-    for (i, token) in tokens.iter().enumerate() {
+    for i in 0..tokens.len() {
         let Some(place) = places.last_mut() else { break };
-        match token.kind {
-            TokenKind::Cell if !place.aligned => return Err(misplaced(source, token)),
+        let kind = tokens[i].kind;
+        match kind {
+            TokenKind::Cell if !place.aligned => return Err(misplaced(source, &tokens[i])),
             TokenKind::Cell => {
-                keep[i] = place.kind == PlaceKind::Cells;
+                if place.kind != PlaceKind::Cells {
+                    tokens[i].kind = TokenKind::Quad;
+                }
                 place.row.first_cell_empty |= !place.row.begun;
                 continue;
             }
@@ -90,12 +93,12 @@ fn rows(source: &str, tokens: &[Token]) -> Result<Vec<bool>, ParseError> {
         let row = &mut place.row;
         if !row.begun {
             row.begun = true;
-            row.begins_with_operator = matches!(token.kind, TokenKind::Sign(_) | TokenKind::Times(_));
+            row.begins_with_operator = matches!(kind, TokenKind::Sign(_) | TokenKind::Times(_));
         }
-        row.has_relation |= matches!(token.kind, TokenKind::Relation(_));
+        row.has_relation |= matches!(kind, TokenKind::Relation(_));
         let aligned = place.aligned;
         let mut enter = |kind, aligned| places.push(Place { kind, aligned, row: RowSoFar::default() });
-        match token.kind {
+        match kind {
             TokenKind::Begin(Environment::Rows) => enter(PlaceKind::Rows, true),
             TokenKind::Begin(Environment::Matrix(_)) => enter(PlaceKind::Cells, true),
             TokenKind::BraceOpen if i > 0 && tokens[i - 1].kind == TokenKind::Substack => {

@@ -85,7 +85,7 @@ fn plain(node: &Node, out: &mut String) {
             out.push_str(text);
             out.push('}');
         }
-        Kind::Styled(font, body) => applied(font_macro(*font), body, out),
+        Kind::Styled(font, body) => applied(font_macro(*font, body), body, out),
         Kind::Accent(accent, body) => applied(accent_macro(*accent), body, out),
         Kind::Dots(count, body) => applied(dots_macro(*count), body, out),
         Kind::Scripts { base, primes, sub, sup } => scripts(base, *primes, sub.as_deref(), sup.as_deref(), out),
@@ -174,12 +174,12 @@ fn sum(terms: &[Term], out: &mut String) {
             out.push_str(match term.sign {
                 Sign::Plus => "+",
                 Sign::Minus => "-",
-                Sign::PlusMinus => "\\pm ",
-                Sign::MinusPlus => "\\mp ",
+                Sign::PlusMinus => "\\pm",
+                Sign::MinusPlus => "\\mp",
             });
-        }
-        if i > 0 {
-            out.push(' ');
+            if i > 0 || matches!(term.sign, Sign::PlusMinus | Sign::MinusPlus) {
+                out.push(' ');
+            }
         }
         write(&term.node, Level::Product, out);
     }
@@ -315,8 +315,10 @@ fn big_op(op: BigOp) -> &'static str {
     }
 }
 
-fn font_macro(font: Font) -> &'static str {
+fn font_macro(font: Font, body: &Node) -> &'static str {
     match font {
+        // `\mathbf` leaves Greek letters as they are.
+        Font::Bold if matches!(&body.kind, Kind::Symbol(name) if name.starts_with('\\')) => "\\boldsymbol",
         Font::Bold => "\\mathbf",
         Font::Calligraphic => "\\mathcal",
         Font::Roman => "\\mathrm",
