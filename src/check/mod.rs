@@ -1,10 +1,12 @@
 //! Judging: sampled states, premises, verdicts.
 
 mod book;
+mod choice;
 mod claim;
 mod decide;
 pub mod inspect;
 mod judge;
+mod newton;
 mod order;
 mod premises;
 mod random;

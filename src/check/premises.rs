@@ -112,23 +112,33 @@ impl Premises {
     }
 
     /// Adds the time derivatives of the residuals, as long as they are of no higher order than what occurs in `targets`
-    /// or in the premises themselves.
+    /// or in the premises themselves, and say something of the symbols that occur there.
     pub fn close_in_time(&mut self, graph: &mut Graph, targets: &[Expr]) {
         let all: Vec<Expr> = targets.iter().chain(&self.residuals).copied().collect();
-        let order = |graph: &Graph, es: &[Expr]| graph.symbols(es).iter().map(|s| graph.info(*s).order).max().unwrap_or(0);
+        let order =
+            |graph: &Graph, es: &[Expr]| graph.symbols(es).iter().map(|s| graph.info(*s).order).max().unwrap_or(0);
         let highest = order(graph, &all);
+        let known = graph.symbols(&all);
         let t = graph.find("t");
         let mut seen: HashSet<Expr> = self.residuals.iter().copied().collect();
-        let mut at = 0;
-        while at < self.residuals.len() && self.residuals.len() < MOST_RESIDUALS {
-            let derivative = graph.time_derivative(self.residuals[at], t);
+        let mut queue = self.residuals.clone();
+        let mut derivatives = Vec::new();
+        while let Some(residual) = queue.pop() {
+            if derivatives.len() > MOST_RESIDUALS {
+                break;
+            }
+            let derivative = graph.time_derivative(residual, t);
             let derivative = self.resolve(graph, derivative);
-            at += 1;
             let says_something = !graph.symbols(&[derivative]).is_empty();
             if says_something && order(graph, &[derivative]) <= highest && seen.insert(derivative) {
-                self.residuals.push(derivative);
+                derivatives.push(derivative);
+                queue.push(derivative);
             }
         }
+        let unknown: Vec<Vec<SymId>> =
+            derivatives.iter().map(|d| graph.symbols(&[*d]).difference(&known).copied().collect()).collect();
+        let kept = overdetermined(&unknown);
+        self.residuals.extend(derivatives.into_iter().zip(kept).filter(|(_, k)| *k).map(|(d, _)| d));
     }
 
     /// Keeps only the residuals that have to do with `targets`: those that share symbols with them, directly or by
@@ -153,4 +163,39 @@ impl Premises {
         let mut keep = kept.into_iter();
         self.residuals.retain(|_| keep.next().unwrap_or(true));
     }
+}
+
+/// Which equations are not there merely to determine symbols of their own: those that no matching of equations with
+/// symbols can serve all, by alternating paths from the unmatched ones (the overdetermined part of Dulmage and
+/// Mendelsohn's decomposition). `symbols` holds the symbols of each equation.
+fn overdetermined(symbols: &[Vec<SymId>]) -> Vec<bool> {
+    let mut server: HashMap<SymId, usize> = HashMap::new();
+    let unmatched: Vec<usize> =
+        (0..symbols.len()).filter(|k| !serve(*k, symbols, &mut server, &mut HashSet::new())).collect();
+    let mut kept = vec![false; symbols.len()];
+    let mut queue = unmatched;
+    while let Some(k) = queue.pop() {
+        if !std::mem::replace(&mut kept[k], true) {
+            queue.extend(symbols[k].iter().filter_map(|s| server.get(s)));
+        }
+    }
+    kept
+}
+
+/// Finds a symbol for an equation, if need be by making others change theirs (Kuhn's algorithm). The depth of the
+/// recursion is at most the number of equations, some hundreds.
+fn serve(k: usize, symbols: &[Vec<SymId>], server: &mut HashMap<SymId, usize>, tried: &mut HashSet<SymId>) -> bool {
+    for s in &symbols[k] {
+        if tried.insert(*s) {
+            let free = match server.get(s) {
+                None => true,
+                Some(&other) => serve(other, symbols, server, tried),
+            };
+            if free {
+                server.insert(*s, k);
+                return true;
+            }
+        }
+    }
+    false
 }

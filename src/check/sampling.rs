@@ -8,7 +8,7 @@ use crate::number::{Number, Real, Tracked};
 
 use super::claim::{Claim, Pair};
 use super::random::{Decimal, Random};
-use super::system::{NoState, State, System, Wish, magnitude};
+use super::system::{NoState, State, System, Wish};
 use super::verdict::{Assignment, Counterexample};
 
 /// How many states are drawn for each that is asked for, before giving up.
@@ -58,7 +58,7 @@ impl<'c> Sampler<'c> {
     pub fn new(claim: &'c mut Claim, random: &mut Random, extra: &[Expr]) -> Result<Self, NoState> {
         let mut outputs = Vec::new();
         for pair in claim.branches.iter().flatten() {
-            let size = magnitude(&mut claim.world.graph, pair.residual);
+            let size = claim.world.graph.magnitude(pair.residual);
             outputs.extend([pair.residual, pair.lhs, pair.rhs, size]);
         }
         let mut targets = outputs.clone();

@@ -5,21 +5,16 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use nalgebra::{DMatrix, DVector, Dyn, LU};
 
-use crate::expr::{Expr, Func, Graph, Node, SymId, Tape, Workspace};
+use crate::expr::{Expr, SymId, Tape, Workspace};
 use crate::number::{Number, Real, Tracked};
 use crate::semantics::World;
 
+use super::choice::{choose, preference};
+use super::newton::descend;
 use super::random::{Decimal, Random, draw};
 
 /// The range of a symbol for which none is declared.
 const DEFAULT_RANGE: [f64; 2] = [0.3, 2.0];
-
-/// How many starts are tried for a solution of the premises.
-const TRIES: usize = 12;
-
-/// What is left of a column of the scaled Jacobian beside those before it, for it to count as independent of them. The
-/// point at which the Jacobian is taken is known to some 1e-11.
-const INDEPENDENT: f64 = 1e-7;
 
 /// Premises with the choice of free and solved symbols, compiled.
 pub struct System {
@@ -96,7 +91,7 @@ impl System {
 
         let jacobian = world.graph.jacobian(&chosen, &solved);
         let outputs: Vec<Expr> = chosen.iter().copied().chain(jacobian.into_iter().flatten()).collect();
-        let rest: Vec<Expr> = others.iter().flat_map(|r| [*r, magnitude(&mut world.graph, *r)]).collect();
+        let rest: Vec<Expr> = others.iter().flat_map(|r| [*r, world.graph.magnitude(*r)]).collect();
         let all: Vec<Expr> = residuals.iter().chain(targets).copied().collect();
         let free = world.graph.symbols(&all).into_iter().filter(|s| !solved.contains(s));
         Ok(System {
@@ -130,31 +125,15 @@ impl System {
         if self.unknowns.is_empty() {
             return self.check(state, &mut work);
         }
-        let mut x = DVector::from_column_slice(start);
-        let mut last = f64::INFINITY;
-        let mut calm = 0;
-        for _ in 0..80 {
-            self.place(state, &x);
-            let (residual, jacobian) = self.newton_values(state, &mut work);
-            let Some(step) = jacobian.lu().solve(&residual) else { return Err(NoState::Diverges) };
-            if step.iter().any(|s| !s.is_finite()) {
-                return Err(NoState::Diverges);
-            }
-            let size = relative_size(&step, &x);
-            // Far from the solution the step is shortened, so that the iteration stays near the declared ranges.
-            let damping = if size > 2.0 { 2.0 / size } else { 1.0 };
-            x -= step * damping;
-            if size < 1e-13 || (size < 1e-9 && size >= last) {
-                calm += 1;
-                if calm > 1 {
-                    break;
-                }
-            }
-            last = size;
-        }
-        if calm == 0 {
-            return Err(NoState::Diverges);
-        }
+        let solution = descend(
+            DVector::from_column_slice(start),
+            &mut |x| {
+                self.place(state, x);
+                Some(self.newton_values(state, &mut work))
+            },
+            &|residual, jacobian| jacobian.clone().lu().solve(residual),
+        );
+        let Some((x, ..)) = solution else { return Err(NoState::Diverges) };
         self.place(state, &x);
         self.check(state, &mut work)
     }
@@ -278,12 +257,8 @@ fn power_of_two<N: Real>(n: i32, cx: &N::Context) -> N {
     N::from_f64(2.0, cx).to_the(n)
 }
 
-fn relative_size(step: &DVector<f64>, x: &DVector<f64>) -> f64 {
-    step.iter().zip(x.iter()).map(|(s, x)| s.abs() / (1e-3 + x.abs())).fold(0.0, f64::max)
-}
-
 /// Where a symbol is drawn from.
-fn source(world: &World, symbol: SymId) -> Source {
+pub fn source(world: &World, symbol: SymId) -> Source {
     let facts = world.facts(symbol);
     Source {
         symbol,
@@ -291,158 +266,4 @@ fn source(world: &World, symbol: SymId) -> Source {
         integer: facts.integer,
         declared: facts.range.is_some(),
     }
-}
-
-/// The order in which symbols are tried as unknowns: those asked for, the highest time derivatives, other functions
-/// of time, then constants, the rarer the better.
-fn preference(graph: &Graph, solve: &[SymId], s: SymId) -> (usize, u32, bool, std::cmp::Reverse<usize>) {
-    let info = graph.info(s);
-    let wished = solve.iter().position(|x| *x == s).unwrap_or(usize::MAX);
-    (wished, u32::MAX - info.order, !info.of_t, std::cmp::Reverse(s.index()))
-}
-
-/// The sum of the magnitudes of the terms that an expression has when its products are multiplied out: what its
-/// rounding errors and its cancellation are measured by.
-pub fn magnitude(graph: &mut Graph, e: Expr) -> Expr {
-    let mut sizes: BTreeMap<Expr, Expr> = BTreeMap::new();
-    // Operands stand before what they are used in.
-    for x in graph.reachable(&[e]) {
-        let of = |y: Expr| sizes.get(&y).copied().unwrap_or(y);
-        let size = match *graph.node(x) {
-            Node::Add(a, b) | Node::Sub(a, b) => graph.add(of(a), of(b)),
-            Node::Mul(a, b) => graph.mul(of(a), of(b)),
-            Node::Div(a, b) => {
-                let divisor = graph.call(Func::Abs, b);
-                graph.div(of(a), divisor)
-            }
-            Node::Neg(a) => of(a),
-            _ => graph.call(Func::Abs, x),
-        };
-        sizes.insert(x, size);
-    }
-    sizes.get(&e).copied().unwrap_or(e)
-}
-
-/// Chooses independent residuals (rows) and the symbols to solve them for (columns), by the ranks of the Jacobian at a
-/// point where all premises hold: elsewhere premises that follow from each other look independent.
-fn choose(
-    world: &mut World,
-    residuals: &[Expr],
-    candidates: &[SymId],
-    wish: &Wish,
-    random: &mut Random,
-) -> Result<(Vec<usize>, Vec<usize>), NoState> {
-    if residuals.is_empty() {
-        return Ok((Vec::new(), Vec::new()));
-    }
-    let jacobian = world.graph.jacobian(residuals, candidates);
-    let magnitudes: Vec<Expr> = residuals.iter().map(|r| magnitude(&mut world.graph, *r)).collect();
-    let outputs: Vec<Expr> = residuals.iter().copied().chain(jacobian.into_iter().flatten()).chain(magnitudes).collect();
-    let tape = Tape::compile(&world.graph, &outputs);
-    let sources: BTreeMap<SymId, Source> = tape.inputs().iter().map(|s| (*s, source(world, *s))).collect();
-    let m = residuals.len();
-    // The fewest symbols that will do are moved: what the premises determine, not the constants of the problem.
-    for stage in 0..3 {
-        let movable: Vec<usize> = (0..candidates.len()).filter(|k| moves(&world.graph, wish, candidates[*k]) <= stage).collect();
-        for _ in 0..if movable.is_empty() { 0 } else { TRIES } {
-            let mut values: BTreeMap<SymId, f64> =
-                sources.iter().map(|(s, src)| (*s, draw(random, src.range, src.integer, false).to_f64())).collect();
-            let Some((j, magnitudes)) = nearest_solution(&tape, candidates, &movable, &mut values, m) else { continue };
-            let sizes: Vec<f64> = movable.iter().map(|k| values[&candidates[*k]].abs().max(1e-3)).collect();
-            let j = scaled(j, &sizes, &magnitudes);
-            let columns = independent(&j);
-            let narrow = j.select_columns(&columns);
-            let rows = independent(&narrow.transpose());
-            return Ok((rows, columns.into_iter().map(|c| movable[c]).collect()));
-        }
-    }
-    Err(NoState::Unsolvable)
-}
-
-/// The stage at which a symbol may be moved to satisfy the premises: first those asked for and time derivatives, then
-/// other functions of time, last the constants.
-fn moves(graph: &Graph, wish: &Wish, s: SymId) -> usize {
-    let info = graph.info(s);
-    match (wish.solve.contains(&s) || info.order > 0, info.of_t) {
-        (true, _) => 0,
-        (false, true) => 1,
-        (false, false) => 2,
-    }
-}
-
-/// Gauss and Newton's method with steps of least length in the movable candidates; the Jacobian by these at the
-/// solution, and the magnitudes of the residuals' terms.
-fn nearest_solution(
-    tape: &Tape,
-    candidates: &[SymId],
-    movable: &[usize],
-    values: &mut BTreeMap<SymId, f64>,
-    m: usize,
-) -> Option<(DMatrix<f64>, Vec<f64>)> {
-    let n = candidates.len();
-    let mut work = Workspace::default();
-    for _ in 0..60 {
-        let inputs: Vec<f64> = tape.inputs().iter().map(|s| values.get(s).copied().unwrap_or(f64::NAN)).collect();
-        let out = tape.eval(&inputs, &(), &mut work);
-        let residual = DVector::from_column_slice(&out[..m]);
-        let jacobian = DMatrix::from_row_slice(m, n, &out[m..m + m * n]).select_columns(movable);
-        if residual.iter().chain(jacobian.iter()).any(|x| !x.is_finite()) {
-            return None;
-        }
-        let svd = jacobian.clone().svd(true, true);
-        let largest = svd.singular_values.iter().copied().fold(0.0, f64::max);
-        let step = svd.solve(&residual, 1e-9 * largest.max(f64::MIN_POSITIVE)).ok()?;
-        let x = DVector::from_iterator(movable.len(), movable.iter().map(|k| values[&candidates[*k]]));
-        let size = relative_size(&step, &x);
-        if size < 1e-11 {
-            // Not every stationary point is a solution.
-            let scale = jacobian.iter().fold(1e-300_f64, |s, j| s.max(j.abs()));
-            let magnitudes = out[m + m * n..].to_vec();
-            return (residual.amax() <= 1e-7 * scale).then_some((jacobian, magnitudes));
-        }
-        let damping = if size > 0.5 { 0.5 / size } else { 1.0 };
-        for (k, step) in movable.iter().zip(step.iter()) {
-            if let Some(v) = values.get_mut(&candidates[*k]) {
-                *v -= damping * step;
-            }
-        }
-    }
-    None
-}
-
-/// The Jacobian by relative changes of the symbols, each row of length 1, so that units play no part. A premise that
-/// holds at every state has a row of rounding errors, which is small against the premise's terms: it becomes zero.
-fn scaled(mut j: DMatrix<f64>, sizes: &[f64], magnitudes: &[f64]) -> DMatrix<f64> {
-    for (mut column, size) in j.column_iter_mut().zip(sizes) {
-        column *= *size;
-    }
-    for (mut row, magnitude) in j.row_iter_mut().zip(magnitudes) {
-        let length = row.norm();
-        row /= if length > INDEPENDENT * magnitude { length } else { f64::INFINITY };
-    }
-    j
-}
-
-/// The columns that are independent of those before them, by Gram and Schmidt.
-fn independent(j: &DMatrix<f64>) -> Vec<usize> {
-    let mut basis: Vec<DVector<f64>> = Vec::new();
-    let mut chosen = Vec::new();
-    for (k, column) in j.column_iter().enumerate() {
-        let mut v: DVector<f64> = column.into_owned();
-        // Twice is enough (Kahan, Parlett).
-        for _ in 0..2 {
-            for b in &basis {
-                v -= b * b.dot(&v);
-            }
-        }
-        let left = v.norm();
-        if left > INDEPENDENT {
-            basis.push(v / left);
-            chosen.push(k);
-            if basis.len() == j.nrows() {
-                break;
-            }
-        }
-    }
-    chosen
 }

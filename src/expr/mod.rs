@@ -3,6 +3,7 @@
 pub mod diff;
 mod display;
 pub mod graph;
+mod magnitude;
 mod ratio;
 mod rewrite;
 pub mod tape;

@@ -1,0 +1,147 @@
+//! Which premises are independent, and which symbols to solve them for.
+
+use std::collections::BTreeMap;
+
+use nalgebra::{DMatrix, DVector};
+
+use crate::expr::{Expr, Graph, SymId, Tape, Workspace};
+use crate::semantics::World;
+
+use super::newton::descend;
+use super::random::{Random, draw};
+use super::system::{NoState, Source, Wish, source};
+
+/// How many starts are tried for a solution of the premises.
+const TRIES: usize = 12;
+
+/// What is left of a column of the scaled Jacobian beside those before it, for it to count as independent of them. The
+/// point at which the Jacobian is taken is known to some 1e-11.
+const INDEPENDENT: f64 = 1e-7;
+
+/// The order in which symbols are tried as unknowns: those asked for, the highest time derivatives, other functions
+/// of time, then constants, the rarer the better.
+pub fn preference(graph: &Graph, solve: &[SymId], s: SymId) -> (usize, u32, bool, std::cmp::Reverse<usize>) {
+    let info = graph.info(s);
+    let wished = solve.iter().position(|x| *x == s).unwrap_or(usize::MAX);
+    (wished, u32::MAX - info.order, !info.of_t, std::cmp::Reverse(s.index()))
+}
+
+/// Chooses independent residuals (rows) and the symbols to solve them for (columns), by the ranks of the Jacobian at a
+/// point where all premises hold: elsewhere premises that follow from each other look independent.
+pub fn choose(
+    world: &mut World,
+    residuals: &[Expr],
+    candidates: &[SymId],
+    wish: &Wish,
+    random: &mut Random,
+) -> Result<(Vec<usize>, Vec<usize>), NoState> {
+    if residuals.is_empty() {
+        return Ok((Vec::new(), Vec::new()));
+    }
+    let jacobian = world.graph.jacobian(residuals, candidates);
+    let magnitudes: Vec<Expr> = residuals.iter().map(|r| world.graph.magnitude(*r)).collect();
+    let outputs: Vec<Expr> =
+        residuals.iter().copied().chain(jacobian.into_iter().flatten()).chain(magnitudes).collect();
+    let tape = Tape::compile(&world.graph, &outputs);
+    let sources: BTreeMap<SymId, Source> = tape.inputs().iter().map(|s| (*s, source(world, *s))).collect();
+    let m = residuals.len();
+    // The fewest symbols that will do are moved: what the premises determine, not the constants of the problem.
+    for stage in 0..3 {
+        let movable: Vec<usize> =
+            (0..candidates.len()).filter(|k| moves(&world.graph, wish, candidates[*k]) <= stage).collect();
+        for _ in 0..if movable.is_empty() { 0 } else { TRIES } {
+            let mut values: BTreeMap<SymId, f64> =
+                sources.iter().map(|(s, src)| (*s, draw(random, src.range, src.integer, false).to_f64())).collect();
+            let Some((j, magnitudes)) = nearest_solution(&tape, candidates, &movable, &mut values, m) else { continue };
+            let sizes: Vec<f64> = movable.iter().map(|k| values[&candidates[*k]].abs().max(1e-3)).collect();
+            let j = scaled(j, &sizes, &magnitudes);
+            let columns = independent(&j);
+            let narrow = j.select_columns(&columns);
+            let rows = independent(&narrow.transpose());
+            return Ok((rows, columns.into_iter().map(|c| movable[c]).collect()));
+        }
+    }
+    Err(NoState::Unsolvable)
+}
+
+/// The stage at which a symbol may be moved to satisfy the premises: first those asked for and time derivatives, then
+/// other functions of time, last the constants.
+fn moves(graph: &Graph, wish: &Wish, s: SymId) -> usize {
+    let info = graph.info(s);
+    match (wish.solve.contains(&s) || info.order > 0, info.of_t) {
+        (true, _) => 0,
+        (false, true) => 1,
+        (false, false) => 2,
+    }
+}
+
+/// Gauss and Newton's method with steps of least length in the movable candidates; the Jacobian by these at the
+/// solution, and the magnitudes of the residuals' terms.
+fn nearest_solution(
+    tape: &Tape,
+    candidates: &[SymId],
+    movable: &[usize],
+    values: &mut BTreeMap<SymId, f64>,
+    m: usize,
+) -> Option<(DMatrix<f64>, Vec<f64>)> {
+    let n = candidates.len();
+    let mut work = Workspace::default();
+    let mut magnitudes = Vec::new();
+    let start = DVector::from_iterator(movable.len(), movable.iter().map(|k| values[&candidates[*k]]));
+    let mut at = |x: &DVector<f64>| {
+        for (k, x) in movable.iter().zip(x.iter()) {
+            values.insert(candidates[*k], *x);
+        }
+        let inputs: Vec<f64> = tape.inputs().iter().map(|s| values.get(s).copied().unwrap_or(f64::NAN)).collect();
+        let out = tape.eval(&inputs, &(), &mut work);
+        magnitudes = out[m + m * n..].to_vec();
+        let jacobian = DMatrix::from_row_slice(m, n, &out[m..m + m * n]).select_columns(movable);
+        Some((DVector::from_column_slice(&out[..m]), jacobian))
+    };
+    let step = |residual: &DVector<f64>, jacobian: &DMatrix<f64>| {
+        let svd = jacobian.clone().svd(true, true);
+        let largest = svd.singular_values.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
+        svd.solve(residual, 1e-9 * largest).ok()
+    };
+    let (_, residual, jacobian) = descend(start, &mut at, &step)?;
+    // Not every stationary point is a solution.
+    let solved = residual.iter().zip(&magnitudes).all(|(r, size)| r.abs() <= 1e-9 * size.max(f64::MIN_POSITIVE));
+    solved.then_some((jacobian, magnitudes))
+}
+
+/// The Jacobian by relative changes of the symbols, each row of length 1, so that units play no part. A premise that
+/// holds at every state has a row of rounding errors, which is small against the premise's terms: it becomes zero.
+fn scaled(mut j: DMatrix<f64>, sizes: &[f64], magnitudes: &[f64]) -> DMatrix<f64> {
+    for (mut column, size) in j.column_iter_mut().zip(sizes) {
+        column *= *size;
+    }
+    for (mut row, magnitude) in j.row_iter_mut().zip(magnitudes) {
+        let length = row.norm();
+        row /= if length > INDEPENDENT * magnitude { length } else { f64::INFINITY };
+    }
+    j
+}
+
+/// The columns that are independent of those before them, by Gram and Schmidt.
+fn independent(j: &DMatrix<f64>) -> Vec<usize> {
+    let mut basis: Vec<DVector<f64>> = Vec::new();
+    let mut chosen = Vec::new();
+    for (k, column) in j.column_iter().enumerate() {
+        let mut v: DVector<f64> = column.into_owned();
+        // Twice is enough (Kahan, Parlett).
+        for _ in 0..2 {
+            for b in &basis {
+                v -= b * b.dot(&v);
+            }
+        }
+        let left = v.norm();
+        if left > INDEPENDENT {
+            basis.push(v / left);
+            chosen.push(k);
+            if basis.len() == j.nrows() {
+                break;
+            }
+        }
+    }
+    chosen
+}

@@ -1,0 +1,541 @@
+//! Splitting a formula into tokens.
+
+use super::ast::{Accent, BigOp, Delim, Font, Mark, MatrixEnv, ProductOp, Rel, Sign, Span};
+use super::error::ParseError;
+use super::macros::{self, Meaning};
+
+/// A token with its place.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct Token {
+    /// What it is.
+    pub kind: TokenKind,
+    /// Its bytes in the source.
+    pub span: Span,
+}
+
+/// On which side of its body a delimiter stands, where that is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Side {
+    Open,
+    Close,
+    Middle,
+    Either,
+}
+
+/// The environments that hold rows.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Environment {
+    /// `aligned` and the like: rows of statements, whose alignment marks mean nothing.
+    Rows,
+    /// Rows of cells.
+    Matrix(MatrixEnv),
+}
+
+/// What a [`Token`] is; its letters are read from the source.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum TokenKind {
+    /// One letter.
+    Letter,
+    /// A macro that is a symbol.
+    Symbol,
+    /// Digits, perhaps with a decimal point.
+    Number,
+    /// `\text{..}` or a run of Japanese.
+    Text,
+    /// `\sin`, `\operatorname{..}`
+    Function,
+    BigOp(BigOp),
+    Ellipsis,
+    Relation(Rel),
+    Sign(Sign),
+    Times(ProductOp),
+    /// `,` `;`, a bar in the middle, and (after the layout) a wide space that separates statements.
+    Comma,
+    /// `\quad`, `\qquad`
+    Quad,
+    Mark(Mark),
+    /// `!`
+    Bang,
+    /// `'`
+    Prime,
+    /// `_`
+    Sub,
+    /// `^`
+    Sup,
+    /// `{`
+    BraceOpen,
+    /// `}`
+    BraceClose,
+    /// `(` and the like; after the matching also an opening bar.
+    Open(Delim),
+    /// `)` and the like; after the matching also a closing bar.
+    Close(Delim),
+    /// `\left(`
+    Left(Delim),
+    /// `\right)`
+    Right(Delim),
+    /// A bar whose part is not known yet.
+    Bar {
+        delim: Delim,
+        side: Side,
+        sized: bool,
+    },
+    /// A bar at which what stands before it is evaluated.
+    Evaluate,
+    Begin(Environment),
+    End(Environment),
+    /// `&`
+    Cell,
+    /// `\\`
+    Row,
+    Font(Font),
+    /// `\rm`, `\bf`: a font until the end of the group.
+    Switch(Font),
+    Accent(Accent),
+    Dots(u8),
+    Frac,
+    /// `\over`
+    Over,
+    Sqrt,
+    Binom,
+    Substack,
+    /// `\underbrace`, `\overbrace`
+    Brace {
+        over: bool,
+    },
+    /// `\underset`, `\overset`
+    Stack {
+        over: bool,
+    },
+    /// A macro that prints its argument as it is.
+    Pass,
+}
+
+/// Splits a formula into tokens; blanks, comments, narrow spaces, sizes, labels and full stops are left out.
+pub(super) fn tokenize(source: &str) -> Result<Vec<Token>, ParseError> {
+    let mut lexer = Lexer { source, pos: 0, tokens: Vec::new() };
+    while let Some(c) = lexer.peek() {
+        lexer.token(c)?;
+    }
+    Ok(lexer.tokens)
+}
+
+struct Lexer<'a> {
+    source: &'a str,
+    pos: usize,
+    tokens: Vec<Token>,
+}
+
+impl<'a> Lexer<'a> {
+    fn rest(&self) -> &'a str {
+        self.source.get(self.pos..).unwrap_or("")
+    }
+
+    fn peek(&self) -> Option<char> {
+        self.rest().chars().next()
+    }
+
+    fn push(&mut self, kind: TokenKind, start: usize) {
+        self.tokens.push(Token { kind, span: start..self.pos });
+    }
+
+    fn skip_while(&mut self, keep: impl Fn(char) -> bool) -> &'a str {
+        let rest = self.rest();
+        let end = rest.find(|c| !keep(c)).unwrap_or(rest.len());
+        self.pos += end;
+        &rest[..end]
+    }
+
+    fn token(&mut self, c: char) -> Result<(), ParseError> {
+        let start = self.pos;
+        match c {
+            '\\' => return self.command(),
+            '%' => {
+                self.skip_while(|c| c != '\n');
+            }
+            '0'..='9' => self.number(),
+            '.' if self.rest()[1..].starts_with(|c: char| c.is_ascii_digit()) => self.number(),
+            'a'..='z' | 'A'..='Z' => self.letter(),
+            ':' if self.rest().starts_with(":=") => {
+                self.pos += 2;
+                self.push(TokenKind::Relation(Rel::Equiv), start);
+            }
+            _ if is_japanese(c) => {
+                self.skip_while(is_japanese);
+                self.push(TokenKind::Text, start);
+            }
+            _ => {
+                self.pos += c.len_utf8();
+                match character(c) {
+                    Some(kind) => self.push(kind, start),
+                    None if is_blank(c) => {}
+                    None if c.is_alphabetic() => self.push(TokenKind::Letter, start),
+                    None => return Err(unexpected_character(c, start)),
+                }
+            }
+        }
+        Ok(())
+    }
+
+    /// Digits with at most one decimal point, and groups of three digits set off by `\,` or `{,}`.
+    fn number(&mut self) {
+        let start = self.pos;
+        let digit = |c: char| c.is_ascii_digit();
+        self.skip_while(digit);
+        while let Some(gap) = ["\\,", "{,}"].iter().find_map(|gap| group_of_three(self.rest(), gap)) {
+            self.pos += gap;
+        }
+        if self.rest().strip_prefix('.').is_some_and(|rest| rest.starts_with(digit)) {
+            self.pos += 1;
+            self.skip_while(digit);
+        }
+        self.push(TokenKind::Number, start);
+    }
+
+    /// A letter; the bare word `const` is no product of five letters.
+    fn letter(&mut self) {
+        let start = self.pos;
+        let word = self.skip_while(|c| c.is_ascii_alphabetic());
+        let after_digit_or_letter =
+            matches!(self.tokens.last(), Some(t) if t.span.end == start && t.kind == TokenKind::Letter);
+        if word == "const" && !after_digit_or_letter {
+            return self.push(TokenKind::Text, start);
+        }
+        self.pos = start;
+        for _ in word.bytes() {
+            self.pos += 1;
+            self.push(TokenKind::Letter, self.pos - 1);
+        }
+    }
+
+    fn command(&mut self) -> Result<(), ParseError> {
+        let start = self.pos;
+        self.pos += 1;
+        let mut name = self.skip_while(|c| c.is_ascii_alphabetic());
+        if name.is_empty() {
+            let Some(c) = self.peek() else {
+                return Err(ParseError::new("a backslash at the end of the formula", start..self.pos));
+            };
+            name = &self.rest()[..c.len_utf8()];
+            self.pos += c.len_utf8();
+            if c.is_whitespace() {
+                return Ok(());
+            }
+        } else if self.rest().starts_with('*') {
+            self.star(name, start);
+        }
+        match macros::meaning(name) {
+            Some(meaning) => self.interpret(meaning, start),
+            None => Err(unknown_macro(name, start..self.pos)),
+        }
+    }
+
+    /// Passes over the star of `\tag*` and the like.
+    fn star(&mut self, name: &str, start: usize) {
+        let starred = &self.source[start + 1..start + 1 + name.len() + 1];
+        if macros::meaning(starred).is_some() {
+            self.pos += 1;
+        }
+    }
+
+    fn interpret(&mut self, meaning: Meaning, start: usize) -> Result<(), ParseError> {
+        match meaning {
+            Meaning::Token(kind) => {
+                if kind == TokenKind::Row {
+                    self.row_option();
+                }
+                self.push(kind, start);
+            }
+            Meaning::Skip => {}
+            Meaning::SkipArguments(count) => {
+                for _ in 0..count {
+                    self.raw_argument(start)?;
+                }
+            }
+            Meaning::Text => {
+                self.raw_argument(start)?;
+                self.push(TokenKind::Text, start);
+            }
+            Meaning::OperatorName => {
+                self.raw_argument(start)?;
+                self.push(TokenKind::Function, start);
+            }
+            Meaning::Stretch(side) => self.stretch(side, start)?,
+            Meaning::Sized(side) => self.sized(side, start),
+            Meaning::Begin => self.environment(start, TokenKind::Begin)?,
+            Meaning::End => self.environment(start, TokenKind::End)?,
+            Meaning::Not => self.negated(start)?,
+            Meaning::LabelledRelation(rel) => {
+                self.raw_argument(start)?;
+                self.push(TokenKind::Relation(rel), start);
+            }
+        }
+        Ok(())
+    }
+
+    fn skip_blanks(&mut self) {
+        self.skip_while(char::is_whitespace);
+    }
+
+    /// The spacing of `\\[2mm]` and the star of `\\*`.
+    fn row_option(&mut self) {
+        if self.rest().starts_with('*') {
+            self.pos += 1;
+        }
+        let Some(option) = self.rest().strip_prefix('[') else { return };
+        let length = option.trim_start_matches('-').starts_with(|c: char| c.is_ascii_digit() || c == '.');
+        if let (true, Some(end)) = (length, option.find(']'))
+            && end < 16
+            && option[..end].ends_with(|c: char| c.is_ascii_alphabetic())
+        {
+            self.pos += end + 2;
+        }
+    }
+
+    /// The argument in braces that follows, taken as it stands; gives its bytes without the braces.
+    fn raw_argument(&mut self, start: usize) -> Result<&'a str, ParseError> {
+        let name = &self.source[start..self.pos];
+        self.skip_blanks();
+        let open = self.pos;
+        if !self.rest().starts_with('{') {
+            return Err(ParseError::new(format!("`{name}` lacks its argument in braces"), start..open));
+        }
+        let mut depth = 0_usize;
+        let mut escaped = false;
+        for (i, c) in self.rest().char_indices() {
+            match c {
+                _ if escaped => escaped = false,
+                '\\' => escaped = true,
+                '{' => depth += 1,
+                '}' => depth -= 1,
+                _ => {}
+            }
+            if depth == 0 {
+                self.pos = open + i + 1;
+                return Ok(&self.source[open + 1..open + i]);
+            }
+        }
+        Err(ParseError::new(format!("the brace after `{name}` is never closed"), open..open + 1).help("add a `}`"))
+    }
+
+    /// `\left` and the like with its delimiter.
+    fn stretch(&mut self, side: Side, start: usize) -> Result<(), ParseError> {
+        let name = &self.source[start..self.pos];
+        self.skip_blanks();
+        let Some((delim, length)) = delimiter(self.rest()) else {
+            let found = self.peek().map_or_else(|| "nothing".to_owned(), |c| format!("`{c}`"));
+            return Err(ParseError::new(
+                format!("expected a delimiter after `{name}`, found {found}"),
+                start..self.pos,
+            )
+            .help(format!("write `{name}(` or `{name}.`")));
+        };
+        self.pos += length;
+        let kind = match side {
+            Side::Open => TokenKind::Left(delim),
+            Side::Close => TokenKind::Right(delim),
+            Side::Middle | Side::Either => TokenKind::Comma,
+        };
+        self.push(kind, start);
+        Ok(())
+    }
+
+    /// `\Big` and the like: forgotten, except before a bar.
+    fn sized(&mut self, side: Side, start: usize) {
+        self.skip_blanks();
+        if let Some((delim @ (Delim::Bar | Delim::DoubleBar), length)) = delimiter(self.rest()) {
+            self.pos += length;
+            self.push(TokenKind::Bar { delim, side, sized: true }, start);
+        } else if self.rest().starts_with('.') {
+            self.pos += 1;
+        }
+    }
+
+    fn environment(&mut self, start: usize, kind: fn(Environment) -> TokenKind) -> Result<(), ParseError> {
+        let argument = self.raw_argument(start)?;
+        let name_end = self.pos - 1;
+        let name = argument.trim().trim_end_matches('*');
+        let environment = match name {
+            "aligned" | "align" | "alignedat" | "alignat" | "gathered" | "gather" | "split" | "equation"
+            | "multline" | "multlined" | "eqnarray" | "flalign" | "displaymath" | "math" => Environment::Rows,
+            "matrix" | "pmatrix" | "bmatrix" | "Bmatrix" | "smallmatrix" => Environment::Matrix(MatrixEnv::Matrix),
+            "vmatrix" | "Vmatrix" => Environment::Matrix(MatrixEnv::Determinant),
+            "array" | "subarray" => Environment::Matrix(MatrixEnv::Array),
+            "cases" | "dcases" | "rcases" => Environment::Matrix(MatrixEnv::Cases),
+            _ => {
+                let span = name_end - argument.len()..name_end;
+                return Err(ParseError::new(format!("unknown environment `{name}`"), span)
+                    .help("use aligned, gathered, cases, array, pmatrix, bmatrix or vmatrix"));
+            }
+        };
+        if matches!(kind(environment), TokenKind::Begin(_)) {
+            if self.rest().starts_with('[') {
+                self.skip_while(|c| c != ']');
+                self.pos += usize::from(self.rest().starts_with(']'));
+            }
+            if matches!(name, "array" | "subarray" | "alignedat" | "alignat") {
+                self.raw_argument(start)?;
+            }
+        }
+        self.push(kind(environment), start);
+        Ok(())
+    }
+
+    /// `\not=`
+    fn negated(&mut self, start: usize) -> Result<(), ParseError> {
+        self.skip_blanks();
+        let negated = ["=", "\\equiv", "\\in", "\\parallel", "\\perp", "<", ">"];
+        match negated.iter().find(|text| self.rest().starts_with(**text)) {
+            Some(&text) if text == "=" || text == "\\equiv" => {
+                self.pos += text.len();
+                self.push(TokenKind::Relation(Rel::Ne), start);
+                Ok(())
+            }
+            _ => Err(ParseError::new("`\\not` is only read before `=`", start..self.pos).help("write `\\neq`")),
+        }
+    }
+}
+
+fn is_blank(c: char) -> bool {
+    c.is_whitespace() || c == '~' || c == '.' || c == '。' || c == '\u{200b}' || c == '\u{feff}'
+}
+
+/// The length of a gap followed by exactly three digits.
+fn group_of_three(rest: &str, gap: &str) -> Option<usize> {
+    let digits = rest.strip_prefix(gap)?.bytes().take_while(u8::is_ascii_digit).count();
+    (digits == 3).then_some(gap.len() + 3)
+}
+
+/// The delimiter at the beginning of a text, with its length.
+fn delimiter(rest: &str) -> Option<(Delim, usize)> {
+    let length = match rest.strip_prefix('\\') {
+        None => rest.chars().next()?.len_utf8(),
+        Some(name) => match name.bytes().take_while(u8::is_ascii_alphabetic).count() {
+            0 => 1 + name.chars().next()?.len_utf8(),
+            letters => 1 + letters,
+        },
+    };
+    let delim = match &rest[..length] {
+        "." => Delim::None,
+        "(" | ")" | "\\lparen" | "\\rparen" => Delim::Paren,
+        "[" | "]" | "\\lbrack" | "\\rbrack" => Delim::Bracket,
+        "\\{" | "\\}" | "\\lbrace" | "\\rbrace" => Delim::Brace,
+        "|" | "\\vert" | "\\lvert" | "\\rvert" => Delim::Bar,
+        "\\|" | "\\Vert" | "\\lVert" | "\\rVert" => Delim::DoubleBar,
+        "<" | ">" | "\\langle" | "\\rangle" => Delim::Angle,
+        "\\lfloor" | "\\rfloor" => Delim::Floor,
+        "\\lceil" | "\\rceil" => Delim::Ceil,
+        _ => return None,
+    };
+    Some((delim, length))
+}
+
+/// The token that a single character is.
+fn character(c: char) -> Option<TokenKind> {
+    Some(match c {
+        '&' => TokenKind::Cell,
+        '^' => TokenKind::Sup,
+        '_' => TokenKind::Sub,
+        '{' => TokenKind::BraceOpen,
+        '}' => TokenKind::BraceClose,
+        '\'' | '′' | '’' => TokenKind::Prime,
+        '!' => TokenKind::Bang,
+        ',' | ';' | '，' | '、' | '；' => TokenKind::Comma,
+        '+' | '＋' => TokenKind::Sign(Sign::Plus),
+        '-' | '−' | '－' => TokenKind::Sign(Sign::Minus),
+        '±' => TokenKind::Sign(Sign::PlusMinus),
+        '*' | '·' | '⋅' | '∗' => TokenKind::Times(ProductOp::Dot),
+        '×' => TokenKind::Times(ProductOp::Cross),
+        '/' | '÷' => TokenKind::Times(ProductOp::Slash),
+        '=' | '＝' => TokenKind::Relation(Rel::Eq),
+        '<' => TokenKind::Relation(Rel::Lt),
+        '>' => TokenKind::Relation(Rel::Gt),
+        ':' | '：' => TokenKind::Relation(Rel::Ratio),
+        '≡' => TokenKind::Relation(Rel::Equiv),
+        '≠' => TokenKind::Relation(Rel::Ne),
+        '≤' | '≦' => TokenKind::Relation(Rel::Le),
+        '≥' | '≧' => TokenKind::Relation(Rel::Ge),
+        '≈' | '≃' | '≒' => TokenKind::Relation(Rel::Approx),
+        '→' => TokenKind::Relation(Rel::To),
+        '⇒' => TokenKind::Relation(Rel::Implies),
+        '∈' => TokenKind::Relation(Rel::In),
+        '(' | '（' => TokenKind::Open(Delim::Paren),
+        ')' | '）' => TokenKind::Close(Delim::Paren),
+        '[' => TokenKind::Open(Delim::Bracket),
+        ']' => TokenKind::Close(Delim::Bracket),
+        '⟨' => TokenKind::Open(Delim::Angle),
+        '⟩' => TokenKind::Close(Delim::Angle),
+        '|' => TokenKind::Bar { delim: Delim::Bar, side: Side::Either, sized: false },
+        '‖' => TokenKind::Bar { delim: Delim::DoubleBar, side: Side::Either, sized: false },
+        '…' | '⋯' => TokenKind::Ellipsis,
+        '∴' => TokenKind::Mark(Mark::Therefore),
+        '∵' => TokenKind::Mark(Mark::Because),
+        '∂' | '∇' | '∞' | '°' | '?' | '@' | '"' | '`' => TokenKind::Symbol,
+        _ => return None,
+    })
+}
+
+/// Kana, kanji and the punctuation that stands among them.
+fn is_japanese(c: char) -> bool {
+    matches!(c,
+        '\u{3003}'..='\u{30ff}' | '\u{3400}'..='\u{4dbf}' | '\u{4e00}'..='\u{9fff}' | '\u{f900}'..='\u{faff}' | '\u{ff66}'..='\u{ff9f}')
+        && !matches!(c, '\u{3000}' | '、' | '。')
+}
+
+fn unexpected_character(c: char, start: usize) -> ParseError {
+    let error = ParseError::new(format!("`{c}` is not read in a formula"), start..start + c.len_utf8());
+    match c {
+        '$' => error.help("a `$` ends the formula: remove it"),
+        '#' => error.help("write `\\#`"),
+        _ => error.help("use the LaTeX macro for it, or put it in `\\text{..}`"),
+    }
+}
+
+fn unknown_macro(name: &str, span: Span) -> ParseError {
+    let error = ParseError::new(format!("unknown macro `\\{name}`"), span);
+    match macros::suggestion(name) {
+        Some(known) => error.help(format!("did you mean `\\{known}`?")),
+        None => error.help(format!("write `\\operatorname{{{name}}}` if it is a function")),
+    }
+}
+
+impl TokenKind {
+    /// Whether it opens a pair.
+    pub(super) fn opens(self) -> bool {
+        use TokenKind as T;
+        matches!(self, T::BraceOpen | T::Open(_) | T::Left(_) | T::Begin(_))
+    }
+
+    /// Whether it closes a pair.
+    pub(super) fn closes(self) -> bool {
+        use TokenKind as T;
+        matches!(self, T::BraceClose | T::Close(_) | T::Right(_) | T::End(_))
+    }
+
+    /// Whether an operand may end with it.
+    pub(super) fn ends_operand(self) -> bool {
+        use TokenKind as T;
+        self.closes() || matches!(self, T::Letter | T::Symbol | T::Number | T::Text | T::Ellipsis | T::Bang | T::Prime)
+    }
+
+    /// Whether an operand may begin with it.
+    pub(super) fn begins_operand(self) -> bool {
+        use TokenKind as T;
+        let ends = matches!(
+            self,
+            T::Relation(_)
+                | T::Sign(_)
+                | T::Times(_)
+                | T::Comma
+                | T::Quad
+                | T::Mark(_)
+                | T::Bang
+                | T::Evaluate
+                | T::Cell
+                | T::Row
+                | T::Over
+                | T::Bar { .. }
+        );
+        !ends && !self.closes()
+    }
+}
