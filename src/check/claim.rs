@@ -96,7 +96,7 @@ impl Source<'_> {
             for e in [&mut pair.lhs, &mut pair.rhs, &mut pair.residual] {
                 *e = premises.resolve(&mut world.graph, *e);
             }
-            targets.push(pair.residual);
+            targets.extend([pair.residual, pair.lhs, pair.rhs]);
         }
         targets.extend(small.iter().map(|(s, _)| world.graph.sym(*s)).collect::<Vec<_>>());
         premises.keep_related(&world.graph, &targets);

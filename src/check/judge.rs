@@ -145,7 +145,10 @@ fn judge_version(book: &Book, index: usize, version: Version, options: &Options)
     let mut links = Vec::new();
     for clause in &statement.clauses {
         if defines(book, index, clause) {
-            links.push(definition(clause));
+            links.push(match source.claim(clause, &entry.scope, &known) {
+                Ok(_) => definition(clause),
+                Err(obstacle) => obstructed(unjudged(clause), &obstacle, &entry.formula(version).latex),
+            });
             known.push(clause.clone());
         } else {
             links.push(judge_link(&source, clause, &entry.scope, &known, &entry.formula(version).latex, options));
@@ -215,11 +218,17 @@ fn defines(book: &Book, index: usize, clause: &Clause) -> bool {
         Kind::Matrix { rows, .. } => rows.iter().flatten().all(new_name),
         _ => new_name(node),
     };
-    let both_sides = match &clause.rhs {
-        Side::Node(rhs) => fresh(&clause.lhs) || fresh(rhs),
-        Side::Constant => false,
+    let Side::Node(rhs) = &clause.rhs else { return false };
+    // What is defined must not occur in what defines it.
+    let apart = |name: &Node, value: &Node| {
+        let (mut names, mut used) = (HashSet::new(), HashSet::new());
+        crate::semantics::mentions(&entry.scope, name, &mut names);
+        crate::semantics::mentions(&entry.scope, value, &mut used);
+        names.retain(|n| entry.scope.get(n).is_some_and(crate::semantics::Entry::is_free));
+        names.is_disjoint(&used)
     };
-    both_sides && !clause.continued
+    let approximation = entry.annotation().is_some_and(|a| a.small.is_some());
+    !clause.continued && !approximation && (fresh(&clause.lhs) || fresh(rhs)) && apart(&clause.lhs, rhs)
 }
 
 fn definition(clause: &Clause) -> LinkJudgement {

@@ -86,7 +86,6 @@ impl<'c> Sampler<'c> {
             let hard = k >= count - count / 8 && count >= 8;
             for _ in 0..TRIES {
                 let (mut state, start) = self.system.draw(random, hard, fixed);
-                let start = self.hinted(&state, start);
                 match self.system.solve(&mut state, &start) {
                     Ok(()) if self.is_defined(&state) => {
                         states.push(state);
@@ -103,7 +102,8 @@ impl<'c> Sampler<'c> {
         if states.is_empty() { Err(last) } else { Ok(states) }
     }
 
-    /// The start of an iteration with what the formula itself says of the unknowns.
+    /// The start of an iteration with what the formula itself says of the unknowns: for approximations, which may be
+    /// meant for one root of several. An equality must hold whichever root the premises have.
     pub fn hinted(&self, state: &State, mut start: Vec<f64>) -> Vec<f64> {
         for (unknown, tape) in &self.hints {
             let inputs: Vec<f64> = tape.inputs().iter().map(|s| state.values[s.index()]).collect();
