@@ -1,11 +1,12 @@
 //! The LaTeX of one equation, read into a syntax tree in which every node knows its bytes.
 //!
-//! The way of a formula: [`token`] splits it into tokens; [`matching`] pairs `\left` with `\right`, braces and
-//! environments, then brackets and bars; [`layout`] decides which row breaks and wide spaces separate statements and
-//! forgets the others; [`parser`] reads what is left by recursive descent. Each step takes linear time, and the nesting
+//! The way of a formula: `token` splits it into tokens; `matching` pairs `\left` with `\right`, braces and
+//! environments, then brackets and bars; `layout` decides which row breaks and wide spaces separate statements and
+//! forgets the others; `parser` reads what is left by recursive descent. Each step takes linear time, and the nesting
 //! is limited, so that no input overflows the stack.
 
 pub mod ast;
+mod characters;
 mod error;
 mod layout;
 mod macros;

@@ -1,6 +1,7 @@
 //! Splitting a formula into tokens.
 
 use super::ast::{Accent, BigOp, Delim, Font, Mark, MatrixEnv, ProductOp, Rel, Sign, Span};
+use super::characters::{character, delimiter, group_of_three, is_blank, is_japanese};
 use super::error::ParseError;
 use super::macros::{self, Meaning};
 
@@ -109,6 +110,47 @@ pub(super) enum TokenKind {
     },
     /// A macro that prints its argument as it is.
     Pass,
+}
+
+impl TokenKind {
+    /// Whether it opens a pair.
+    pub(super) fn opens(self) -> bool {
+        use TokenKind as T;
+        matches!(self, T::BraceOpen | T::Open(_) | T::Left(_) | T::Begin(_))
+    }
+
+    /// Whether it closes a pair.
+    pub(super) fn closes(self) -> bool {
+        use TokenKind as T;
+        matches!(self, T::BraceClose | T::Close(_) | T::Right(_) | T::End(_))
+    }
+
+    /// Whether an operand may end with it.
+    pub(super) fn ends_operand(self) -> bool {
+        use TokenKind as T;
+        self.closes() || matches!(self, T::Letter | T::Symbol | T::Number | T::Text | T::Ellipsis | T::Bang | T::Prime)
+    }
+
+    /// Whether an operand may begin with it.
+    pub(super) fn begins_operand(self) -> bool {
+        use TokenKind as T;
+        let ends = matches!(
+            self,
+            T::Relation(_)
+                | T::Sign(_)
+                | T::Times(_)
+                | T::Comma
+                | T::Quad
+                | T::Mark(_)
+                | T::Bang
+                | T::Evaluate
+                | T::Cell
+                | T::Row
+                | T::Over
+                | T::Bar { .. }
+        );
+        !ends && !self.closes()
+    }
 }
 
 /// Splits a formula into tokens; blanks, comments, narrow spaces, sizes, labels and full stops are left out.
@@ -241,8 +283,10 @@ impl<'a> Lexer<'a> {
     fn interpret(&mut self, meaning: Meaning, start: usize) -> Result<(), ParseError> {
         match meaning {
             Meaning::Token(kind) => {
-                if kind == TokenKind::Row {
-                    self.row_option();
+                match kind {
+                    TokenKind::Row => self.row_option(),
+                    TokenKind::Stack { .. } if self.stacked_relation(start) => return Ok(()),
+                    _ => {}
                 }
                 self.push(kind, start);
             }
@@ -351,6 +395,27 @@ impl<'a> Lexer<'a> {
         }
     }
 
+    /// `\overset{..}{=}`: a relation. Under `def` an equality is a definition.
+    fn stacked_relation(&mut self, start: usize) -> bool {
+        let before = self.pos;
+        let note = self.raw_argument(start).unwrap_or("");
+        self.skip_blanks();
+        let below = self.raw_argument(start).unwrap_or("").trim();
+        let relation = match below.strip_prefix('\\') {
+            Some(name) => macros::meaning(name),
+            None => {
+                below.chars().next().filter(|c| c.len_utf8() == below.len()).and_then(character).map(Meaning::Token)
+            }
+        };
+        let Some(Meaning::Token(TokenKind::Relation(relation))) = relation else {
+            self.pos = before;
+            return false;
+        };
+        let defines = relation == Rel::Eq && note.contains("def");
+        self.push(TokenKind::Relation(if defines { Rel::Equiv } else { relation }), start);
+        true
+    }
+
     fn environment(&mut self, start: usize, kind: fn(Environment) -> TokenKind) -> Result<(), ParseError> {
         let argument = self.raw_argument(start)?;
         let name_end = self.pos - 1;
@@ -396,92 +461,6 @@ impl<'a> Lexer<'a> {
     }
 }
 
-fn is_blank(c: char) -> bool {
-    c.is_whitespace() || c == '~' || c == '.' || c == '。' || c == '\u{200b}' || c == '\u{feff}'
-}
-
-/// The length of a gap followed by exactly three digits.
-fn group_of_three(rest: &str, gap: &str) -> Option<usize> {
-    let digits = rest.strip_prefix(gap)?.bytes().take_while(u8::is_ascii_digit).count();
-    (digits == 3).then_some(gap.len() + 3)
-}
-
-/// The delimiter at the beginning of a text, with its length.
-fn delimiter(rest: &str) -> Option<(Delim, usize)> {
-    let length = match rest.strip_prefix('\\') {
-        None => rest.chars().next()?.len_utf8(),
-        Some(name) => match name.bytes().take_while(u8::is_ascii_alphabetic).count() {
-            0 => 1 + name.chars().next()?.len_utf8(),
-            letters => 1 + letters,
-        },
-    };
-    let delim = match &rest[..length] {
-        "." => Delim::None,
-        "(" | ")" | "\\lparen" | "\\rparen" => Delim::Paren,
-        "[" | "]" | "\\lbrack" | "\\rbrack" => Delim::Bracket,
-        "\\{" | "\\}" | "\\lbrace" | "\\rbrace" => Delim::Brace,
-        "|" | "\\vert" | "\\lvert" | "\\rvert" => Delim::Bar,
-        "\\|" | "\\Vert" | "\\lVert" | "\\rVert" => Delim::DoubleBar,
-        "<" | ">" | "\\langle" | "\\rangle" => Delim::Angle,
-        "\\lfloor" | "\\rfloor" => Delim::Floor,
-        "\\lceil" | "\\rceil" => Delim::Ceil,
-        _ => return None,
-    };
-    Some((delim, length))
-}
-
-/// The token that a single character is.
-fn character(c: char) -> Option<TokenKind> {
-    Some(match c {
-        '&' => TokenKind::Cell,
-        '^' => TokenKind::Sup,
-        '_' => TokenKind::Sub,
-        '{' => TokenKind::BraceOpen,
-        '}' => TokenKind::BraceClose,
-        '\'' | '′' | '’' => TokenKind::Prime,
-        '!' => TokenKind::Bang,
-        ',' | ';' | '，' | '、' | '；' => TokenKind::Comma,
-        '+' | '＋' => TokenKind::Sign(Sign::Plus),
-        '-' | '−' | '－' => TokenKind::Sign(Sign::Minus),
-        '±' => TokenKind::Sign(Sign::PlusMinus),
-        '*' | '·' | '⋅' | '∗' => TokenKind::Times(ProductOp::Dot),
-        '×' => TokenKind::Times(ProductOp::Cross),
-        '/' | '÷' => TokenKind::Times(ProductOp::Slash),
-        '=' | '＝' => TokenKind::Relation(Rel::Eq),
-        '<' => TokenKind::Relation(Rel::Lt),
-        '>' => TokenKind::Relation(Rel::Gt),
-        ':' | '：' => TokenKind::Relation(Rel::Ratio),
-        '≡' => TokenKind::Relation(Rel::Equiv),
-        '≠' => TokenKind::Relation(Rel::Ne),
-        '≤' | '≦' => TokenKind::Relation(Rel::Le),
-        '≥' | '≧' => TokenKind::Relation(Rel::Ge),
-        '≈' | '≃' | '≒' => TokenKind::Relation(Rel::Approx),
-        '→' => TokenKind::Relation(Rel::To),
-        '⇒' => TokenKind::Relation(Rel::Implies),
-        '∈' => TokenKind::Relation(Rel::In),
-        '(' | '（' => TokenKind::Open(Delim::Paren),
-        ')' | '）' => TokenKind::Close(Delim::Paren),
-        '[' => TokenKind::Open(Delim::Bracket),
-        ']' => TokenKind::Close(Delim::Bracket),
-        '⟨' => TokenKind::Open(Delim::Angle),
-        '⟩' => TokenKind::Close(Delim::Angle),
-        '|' => TokenKind::Bar { delim: Delim::Bar, side: Side::Either, sized: false },
-        '‖' => TokenKind::Bar { delim: Delim::DoubleBar, side: Side::Either, sized: false },
-        '…' | '⋯' => TokenKind::Ellipsis,
-        '∴' => TokenKind::Mark(Mark::Therefore),
-        '∵' => TokenKind::Mark(Mark::Because),
-        '∂' | '∇' | '∞' | '°' | '?' | '@' | '"' | '`' => TokenKind::Symbol,
-        _ => return None,
-    })
-}
-
-/// Kana, kanji and the punctuation that stands among them.
-fn is_japanese(c: char) -> bool {
-    matches!(c,
-        '\u{3003}'..='\u{30ff}' | '\u{3400}'..='\u{4dbf}' | '\u{4e00}'..='\u{9fff}' | '\u{f900}'..='\u{faff}' | '\u{ff66}'..='\u{ff9f}')
-        && !matches!(c, '\u{3000}' | '、' | '。')
-}
-
 fn unexpected_character(c: char, start: usize) -> ParseError {
     let error = ParseError::new(format!("`{c}` is not read in a formula"), start..start + c.len_utf8());
     match c {
@@ -496,46 +475,5 @@ fn unknown_macro(name: &str, span: Span) -> ParseError {
     match macros::suggestion(name) {
         Some(known) => error.help(format!("did you mean `\\{known}`?")),
         None => error.help(format!("write `\\operatorname{{{name}}}` if it is a function")),
-    }
-}
-
-impl TokenKind {
-    /// Whether it opens a pair.
-    pub(super) fn opens(self) -> bool {
-        use TokenKind as T;
-        matches!(self, T::BraceOpen | T::Open(_) | T::Left(_) | T::Begin(_))
-    }
-
-    /// Whether it closes a pair.
-    pub(super) fn closes(self) -> bool {
-        use TokenKind as T;
-        matches!(self, T::BraceClose | T::Close(_) | T::Right(_) | T::End(_))
-    }
-
-    /// Whether an operand may end with it.
-    pub(super) fn ends_operand(self) -> bool {
-        use TokenKind as T;
-        self.closes() || matches!(self, T::Letter | T::Symbol | T::Number | T::Text | T::Ellipsis | T::Bang | T::Prime)
-    }
-
-    /// Whether an operand may begin with it.
-    pub(super) fn begins_operand(self) -> bool {
-        use TokenKind as T;
-        let ends = matches!(
-            self,
-            T::Relation(_)
-                | T::Sign(_)
-                | T::Times(_)
-                | T::Comma
-                | T::Quad
-                | T::Mark(_)
-                | T::Bang
-                | T::Evaluate
-                | T::Cell
-                | T::Row
-                | T::Over
-                | T::Bar { .. }
-        );
-        !ends && !self.closes()
     }
 }

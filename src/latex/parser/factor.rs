@@ -56,6 +56,9 @@ impl Parser<'_> {
         for _ in 0..super::DEEPEST {
             let scripts = self.scripts()?;
             if !scripts.is_empty() {
+                if let Some(number) = self.number_around(&node, &scripts) {
+                    node = number;
+                }
                 node = self.scripted(node, scripts, start);
             }
             let mut factorial = 0_u8;
@@ -74,14 +77,32 @@ impl Parser<'_> {
     /// A base with its scripts; after `\left. .. \right|` they are a condition.
     fn scripted(&self, base: Node, scripts: Scripts, start: usize) -> Node {
         match base.kind {
-            Kind::Group { open: Delim::None, close: Delim::Bar, body } if scripts.primes == 0 => {
-                self.evaluated(*body, scripts, start)
-            }
+            Kind::Group { open: Delim::None, close: Delim::Bar, body } => self.evaluated(*body, scripts, start),
             _ => {
                 let Scripts { primes, sub, sup } = scripts;
                 Node::new(Kind::Scripts { base: Box::new(base), primes, sub, sup }, self.since(start))
             }
         }
+    }
+
+    /// The number 5.3 in `5.''3` and `5^\circ.3`: astronomers print the unit at the decimal point. Reads the
+    /// digits after the point; the number keeps the place of those before it.
+    fn number_around(&mut self, node: &Node, scripts: &Scripts) -> Option<Node> {
+        let Kind::Number(whole) = &node.kind else { return None };
+        let degrees = matches!(scripts.sup.as_deref(), Some(Node { kind: Kind::Symbol(name), .. }) if name == "\\circ");
+        let next =
+            self.token().filter(|token| token.kind == TokenKind::Number && token.span.start == self.last_end())?;
+        let printed = self.text(&next.span);
+        let point = printed.starts_with('.') || self.text(&(node.span.end..next.span.start)).starts_with('.');
+        let unit = (degrees && point && scripts.primes == 0) || (scripts.primes > 0 && scripts.sup.is_none());
+        // `5'30''` is two numbers.
+        let another_unit = !point && matches!(self.tokens.get(self.pos + 1), Some(t) if t.kind == TokenKind::Prime);
+        if !unit || another_unit || scripts.sub.is_some() || whole.contains('.') {
+            return None;
+        }
+        let number = format!("{whole}.{}", digits(printed).trim_start_matches('.'));
+        self.advance();
+        Some(Node::new(Kind::Number(number), node.span.clone()))
     }
 
     /// A body evaluated at a condition, or between two limits: these are the scripts of an empty base.
