@@ -90,8 +90,7 @@ impl Parser<'_> {
     fn number_around(&mut self, node: &Node, scripts: &Scripts) -> Option<Node> {
         let Kind::Number(whole) = &node.kind else { return None };
         let degrees = matches!(scripts.sup.as_deref(), Some(Node { kind: Kind::Symbol(name), .. }) if name == "\\circ");
-        let next =
-            self.token().filter(|token| token.kind == TokenKind::Number && token.span.start == self.last_end())?;
+        let next = self.token().filter(|token| token.kind == TokenKind::Number && token.span.start == self.end)?;
         let printed = self.text(&next.span);
         let point = printed.starts_with('.') || self.text(&(node.span.end..next.span.start)).starts_with('.');
         let unit = (degrees && point && scripts.primes == 0) || (scripts.primes > 0 && scripts.sup.is_none());
@@ -112,7 +111,7 @@ impl Parser<'_> {
             (0, Some(at), None) => at,
             (primes, sub, sup) => {
                 let from = [&sub, &sup].into_iter().flatten().map(|script| script.span.start).min();
-                let from = from.unwrap_or(self.last_end());
+                let from = from.unwrap_or(self.end);
                 let base = Box::new(Node::new(Kind::Empty, from..from));
                 Box::new(Node::new(Kind::Scripts { base, primes, sub, sup }, self.since(from)))
             }
@@ -133,7 +132,7 @@ impl Parser<'_> {
                     let span = self.advance();
                     let sub = self.argument("_")?;
                     if scripts.sub.is_some() {
-                        return Err(double("subscript", span.start..self.last_end(), "_"));
+                        return Err(double("subscript", span.start..self.end, "_"));
                     }
                     scripts.sub = Some(Box::new(sub));
                 }
@@ -143,7 +142,7 @@ impl Parser<'_> {
                     let (primes, rest) = split_primes(sup);
                     self.add_primes(&mut scripts, primes, &span)?;
                     if rest.is_some() && scripts.sup.is_some() {
-                        return Err(double("superscript", span.start..self.last_end(), "^"));
+                        return Err(double("superscript", span.start..self.end, "^"));
                     }
                     if let Some(rest) = rest {
                         scripts.sup = Some(Box::new(rest));
@@ -305,7 +304,7 @@ impl Parser<'_> {
     fn argument(&mut self, name: &str) -> Result<Node, ParseError> {
         match self.peek() {
             Some(TokenKind::BraceOpen) => self.nested(Self::braces),
-            Some(TokenKind::Number) => Ok(self.digit()),
+            Some(TokenKind::Number) if !self.found().starts_with('.') => Ok(self.digit()),
             Some(TokenKind::Sign(_) | TokenKind::Times(_)) => Ok(self.symbol()),
             Some(TokenKind::Open(_) | TokenKind::Left(_) | TokenKind::Begin(_) | TokenKind::Sub | TokenKind::Sup)
             | None => Err(self.lacks_argument(name)),
@@ -322,14 +321,18 @@ impl Parser<'_> {
             self.advance();
         } else if let Some(token) = self.tokens.get_mut(self.pos) {
             token.span.start += 1;
+            self.end = digit.end;
         }
         Node::new(Kind::Number(self.text(&digit).to_owned()), digit)
     }
 
     fn lacks_argument(&self, name: &str) -> ParseError {
-        let found = self.token().map_or("the end of the formula", |token| self.text(&token.span));
+        let found = match self.found() {
+            "" => "the end of the formula".to_owned(),
+            found => format!("`{found}`"),
+        };
         let at = self.token().map_or(self.source.len()..self.source.len(), |token| token.span.clone());
-        ParseError::new(format!("`{name}` lacks an argument: found `{found}`"), at)
+        ParseError::new(format!("`{name}` lacks an argument: found {found}"), at)
             .help(format!("put the argument of `{name}` in braces: `{name}{{..}}`"))
     }
 }
@@ -349,7 +352,7 @@ fn juxtaposed(mut factors: Vec<Node>, span: Span) -> Node {
 fn in_font(font: Font, body: Node) -> Kind {
     if font == Font::Roman {
         let letters = match &body.kind {
-            Kind::Text(word) => Some(word.clone()),
+            Kind::Text(_) => letter(&body).map(str::to_owned),
             Kind::Juxt(factors) => factors.iter().map(letter).collect::<Option<String>>(),
             _ => None,
         };
@@ -362,8 +365,7 @@ fn in_font(font: Font, body: Node) -> Kind {
 
 fn letter(node: &Node) -> Option<&str> {
     match &node.kind {
-        Kind::Symbol(name) if name.chars().all(char::is_alphabetic) => Some(name),
-        Kind::Text(word) => Some(word),
+        Kind::Symbol(word) | Kind::Text(word) if word.chars().all(char::is_alphabetic) => Some(word),
         _ => None,
     }
 }
