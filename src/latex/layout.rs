@@ -3,24 +3,20 @@
 //! A row break within brackets is passed over, and so is one before a row that continues the row above. Outside
 //! matrices an alignment mark is a wide space, and a wide space between two operands separates them like a comma.
 
+use super::ast::Sign;
+use super::characters::is_japanese;
 use super::error::ParseError;
 use super::token::{Environment, Token, TokenKind};
 
-/// Leaves the row breaks, alignment marks and separating spaces (as [`TokenKind::Comma`]) that mean something.
+/// Leaves the row breaks and alignment marks that mean something; what separates statements, printed or not, becomes a
+/// [`TokenKind::Comma`].
 ///
 /// # Errors
 /// An alignment mark stands where there is nothing to align.
 pub(super) fn lay_out(source: &str, mut tokens: Vec<Token>) -> Result<Vec<Token>, ParseError> {
     let keep = rows(source, &mut tokens)?;
-    let mut kept: Vec<Token> = tokens.into_iter().zip(keep).filter(|(_, keep)| *keep).map(|(token, _)| token).collect();
-    let separates = spaces(&kept);
-    for (token, separates) in kept.iter_mut().zip(separates) {
-        if separates {
-            token.kind = TokenKind::Comma;
-        }
-    }
-    kept.retain(|token| token.kind != TokenKind::Quad);
-    Ok(kept)
+    let kept: Vec<Token> = tokens.into_iter().zip(keep).filter(|(_, keep)| *keep).map(|(token, _)| token).collect();
+    Ok(separated(source, kept))
 }
 
 /// Where a token stands.
@@ -50,16 +46,22 @@ struct RowSoFar {
     broken_at: Option<usize>,
     /// Whether an alignment mark stood before its first token.
     first_cell_empty: bool,
-    /// Whether a token other than a space was seen, and the first was a binary operator.
-    begun: bool,
-    begins_with_operator: bool,
+    /// Its first token other than a space or an alignment mark.
+    first: Option<TokenKind>,
+    has_mark: bool,
     has_relation: bool,
 }
 
 impl RowSoFar {
-    /// Whether the row continues the one above.
+    /// Whether the row continues the one above: it begins with an operator and states nothing of its own. Where nothing
+    /// is aligned, only a minus may begin a statement.
     fn continues(&self) -> bool {
-        self.begun && self.begins_with_operator && (self.first_cell_empty || !self.has_relation)
+        let stays_open = self.first_cell_empty || !self.has_relation;
+        match self.first {
+            Some(TokenKind::Sign(Sign::Minus)) => stays_open,
+            Some(TokenKind::Sign(_) | TokenKind::Times(_)) => stays_open || !self.has_mark,
+            _ => false,
+        }
     }
 }
 
@@ -76,7 +78,8 @@ fn rows(source: &str, tokens: &mut [Token]) -> Result<Vec<bool>, ParseError> {
                 if place.kind != PlaceKind::Cells {
                     tokens[i].kind = TokenKind::Quad;
                 }
-                place.row.first_cell_empty |= !place.row.begun;
+                place.row.first_cell_empty |= place.row.first.is_none();
+                place.row.has_mark = true;
                 continue;
             }
             TokenKind::Row => {
@@ -91,10 +94,7 @@ fn rows(source: &str, tokens: &mut [Token]) -> Result<Vec<bool>, ParseError> {
             _ => {}
         }
         let row = &mut place.row;
-        if !row.begun {
-            row.begun = true;
-            row.begins_with_operator = matches!(kind, TokenKind::Sign(_) | TokenKind::Times(_));
-        }
+        row.first = row.first.or(Some(kind));
         row.has_relation |= matches!(kind, TokenKind::Relation(_));
         let aligned = place.aligned;
         let mut enter = |kind, aligned| places.push(Place { kind, aligned, row: RowSoFar::default() });
@@ -137,53 +137,79 @@ fn misplaced(source: &str, token: &Token) -> ParseError {
         .help("remove it, or write `\\&` for the sign")
 }
 
-/// Which wide spaces separate statements: those between two operands, outside brackets, that are not next to a text
-/// only.
-fn spaces(tokens: &[Token]) -> Vec<bool> {
-    let next = next_tokens(tokens);
-    let mut separates = vec![false; tokens.len()];
-    // For every open delimiter: whether the statement so far holds more than texts, and ends with an operand.
+/// A statement so far.
+#[derive(Default)]
+struct Statement {
+    /// Whether it stands outside brackets, where wide spaces separate.
+    open: bool,
+    /// Whether it holds more than texts.
+    has_operand: bool,
+    ends_operand: bool,
+}
+
+impl Statement {
+    /// Whether something that may separate does so: between two operands.
+    fn separates(&self, next: Option<TokenKind>) -> bool {
+        let begins = next.is_some_and(|next| next.begins_operand() && next != TokenKind::Text);
+        self.has_operand && self.ends_operand && begins
+    }
+}
+
+/// Puts commas where a wide space, a text or the end of aligned rows separates statements, and leaves out the spaces.
+fn separated(source: &str, tokens: Vec<Token>) -> Vec<Token> {
+    let next = next_tokens(&tokens);
+    let mut separated = Vec::with_capacity(tokens.len());
     let mut statements = vec![Statement { open: true, ..Statement::default() }];
-    for (i, token) in tokens.iter().enumerate() {
+    for (token, next) in tokens.into_iter().zip(next) {
         let Some(statement) = statements.last_mut() else { break };
-        match token.kind {
-            TokenKind::Quad => {
-                separates[i] = statement.open
-                    && statement.has_operand
-                    && statement.ends_operand
-                    && next[i].is_some_and(|next| next.begins_operand() && next != TokenKind::Text);
-                if separates[i] {
-                    *statement = Statement { open: true, ..Statement::default() };
-                }
-            }
+        let Token { kind, span } = token.clone();
+        let mut comma = None;
+        match kind {
+            TokenKind::Quad => comma = (statement.open && statement.separates(next)).then_some(span),
             TokenKind::Row | TokenKind::Cell | TokenKind::Comma | TokenKind::Mark(_) => {
                 *statement = Statement { open: statement.open, ..Statement::default() };
             }
-            kind if kind.closes() => {
-                statements.pop();
-                if let Some(outer) = statements.last_mut() {
-                    outer.has_operand = true;
-                    outer.ends_operand = true;
-                }
+            TokenKind::Text => {
+                let between = statement.separates(next) && joins_statements(&source[span.clone()]);
+                comma = between.then_some(span.end..span.end);
+                statement.ends_operand = true;
             }
-            kind => {
-                statement.has_operand |= kind != TokenKind::Text;
-                statement.ends_operand = kind.ends_operand();
+            _ if kind.closes() => {
+                statements.pop();
+                let Some(outer) = statements.last_mut() else { break };
+                outer.has_operand = true;
+                outer.ends_operand = true;
+                let rows_end = kind == TokenKind::End(Environment::Rows);
+                comma = (rows_end && outer.open && outer.separates(next)).then_some(span.end..span.end);
+            }
+            _ => {
+                statement.has_operand = true;
+                statement.ends_operand = kind.ends_operand() || kind == TokenKind::Function;
                 if kind.opens() {
                     statements.push(Statement { open: matches!(kind, TokenKind::Begin(_)), ..Statement::default() });
                 }
             }
         }
+        if kind != TokenKind::Quad {
+            separated.push(token);
+        }
+        if let (Some(span), Some(statement)) = (comma, statements.last_mut()) {
+            *statement = Statement { open: statement.open, ..Statement::default() };
+            separated.push(Token { kind: TokenKind::Comma, span });
+        }
     }
-    separates
+    separated
 }
 
-#[derive(Default)]
-struct Statement {
-    /// Whether it stands outside brackets.
-    open: bool,
-    has_operand: bool,
-    ends_operand: bool,
+/// Whether a text joins two statements rather than naming a unit or an alternative: Japanese words, `for`, `where`.
+fn joins_statements(text: &str) -> bool {
+    let words = text.split_once('{').map_or(text, |(_, rest)| rest.trim_end_matches('}')).trim();
+    let alternative = ["または", "又は", "あるいは", "もしくは", "の"].contains(&words);
+    let conjunction =
+        ["for", "if", "when", "where", "and", "i.e.", "since", "because", "so", "then", "with", "as", "thus"];
+    words.contains([',', '，', '、'])
+        || conjunction.contains(&words.trim_end_matches(':'))
+        || (words.chars().any(is_japanese) && !alternative)
 }
 
 /// For each token the kind of the next that is no space.

@@ -50,23 +50,24 @@ pub(super) fn suggestion(name: &str) -> Option<&'static str> {
     if name.len() > LONGEST_NAME {
         return None;
     }
+    let near = |known: &str| (edits(&name.to_lowercase(), &known.to_lowercase()), edits(name, known));
     MACROS
         .keys()
         .filter(|known| known.len() > 1)
-        .map(|known| (edits(name, known), *known))
-        .filter(|(edits, known)| *edits * 3 <= known.len().max(name.len()) + 1)
+        .map(|known| (near(known), *known))
+        .filter(|((edits, _), known)| *edits * 3 <= known.len().max(name.len()) + 1)
         .min()
         .map(|(_, known)| known)
 }
 
-/// The Levenshtein distance of two ASCII names, letters of either case being alike.
+/// The Levenshtein distance of two ASCII names.
 fn edits(a: &str, b: &str) -> usize {
     let mut row: Vec<usize> = (0..=b.len()).collect();
     for (i, x) in a.bytes().enumerate() {
         let mut diagonal = i;
         let mut left = i + 1;
         for (cell, y) in row.iter_mut().skip(1).zip(b.bytes()) {
-            let replaced = diagonal + usize::from(!x.eq_ignore_ascii_case(&y));
+            let replaced = diagonal + usize::from(x != y);
             diagonal = *cell;
             left = replaced.min(diagonal + 1).min(left + 1);
             *cell = left;

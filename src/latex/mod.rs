@@ -1,17 +1,19 @@
 //! The LaTeX of one equation, read into a syntax tree in which every node knows its bytes.
 //!
-//! The way of a formula: [`token`] splits it into tokens; [`matching`] pairs `\left` with `\right`, braces and
-//! environments, then brackets and bars; [`layout`] decides which row breaks and wide spaces separate statements and
-//! forgets the others; [`parser`] reads what is left by recursive descent. Each step takes linear time, and the nesting
+//! The way of a formula: `tokenizer` splits it into tokens; `matching` pairs `\left` with `\right`, braces and
+//! environments, then brackets and bars; `layout` decides which row breaks and wide spaces separate statements and
+//! forgets the others; `parser` reads what is left by recursive descent. Each step takes linear time, and the nesting
 //! is limited, so that no input overflows the stack.
 
 pub mod ast;
+mod characters;
 mod error;
 mod layout;
 mod macros;
 mod matching;
 mod parser;
 mod token;
+mod tokenizer;
 mod unparse;
 mod walk;
 
@@ -36,7 +38,7 @@ pub fn parse(source: &str) -> Result<Node, ParseError> {
         let message = format!("a formula of {} bytes; at most {LONGEST} are read", source.len());
         return Err(ParseError::new(message, 0..0).help("is a `$$` missing somewhere before?"));
     }
-    let tokens = token::tokenize(source)?;
+    let tokens = tokenizer::tokenize(source)?;
     let tokens = matching::match_delimiters(source, tokens)?;
     let tokens = matching::match_brackets(source, tokens)?;
     let tokens = layout::lay_out(source, tokens)?;

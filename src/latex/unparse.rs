@@ -86,7 +86,7 @@ fn plain(node: &Node, out: &mut String) {
             out.push('}');
         }
         Kind::Styled(font, body) => applied(font_macro(*font, body), body, out),
-        Kind::Accent(accent, body) => applied(accent_macro(*accent), body, out),
+        Kind::Accent(accent, body) => applied(accent_macro(*accent, body), body, out),
         Kind::Dots(count, body) => applied(dots_macro(*count), body, out),
         Kind::Scripts { base, primes, sub, sup } => scripts(base, *primes, sub.as_deref(), sup.as_deref(), out),
         Kind::Juxt(factors) => joined(factors, Level::Factor, " ", out),
@@ -302,7 +302,7 @@ fn evaluated(body: &Node, at: &Node, out: &mut String) {
 
 /// Whether the scripts of an empty base were printed at the bar itself: a lone subscript is the condition.
 fn limits(primes: u8, sub: &Option<Box<Node>>, sup: &Option<Box<Node>>) -> bool {
-    primes == 0 && sup.is_some() && (sub.is_some() || sub.is_none())
+    primes > 0 || sub.is_none() || sup.is_some()
 }
 
 fn big_op(op: BigOp) -> &'static str {
@@ -330,13 +330,18 @@ fn font_macro(font: Font, body: &Node) -> &'static str {
     }
 }
 
-fn accent_macro(accent: Accent) -> &'static str {
-    match accent {
-        Accent::Vector => "\\vec",
-        Accent::Hat => "\\hat",
-        Accent::Bar => "\\bar",
-        Accent::Tilde => "\\tilde",
-        Accent::Other => "\\check",
+fn accent_macro(accent: Accent, body: &Node) -> &'static str {
+    let wide = matches!(body.kind, Kind::Juxt(_) | Kind::Sum(_) | Kind::Product { .. });
+    match (accent, wide) {
+        (Accent::Vector, false) => "\\vec",
+        (Accent::Vector, true) => "\\overrightarrow",
+        (Accent::Hat, false) => "\\hat",
+        (Accent::Hat, true) => "\\widehat",
+        (Accent::Bar, false) => "\\bar",
+        (Accent::Bar, true) => "\\overline",
+        (Accent::Tilde, false) => "\\tilde",
+        (Accent::Tilde, true) => "\\widetilde",
+        (Accent::Other, _) => "\\check",
     }
 }
 

@@ -56,6 +56,9 @@ impl Parser<'_> {
         for _ in 0..super::DEEPEST {
             let scripts = self.scripts()?;
             if !scripts.is_empty() {
+                if let Some(number) = self.number_around(&node, &scripts) {
+                    node = number;
+                }
                 node = self.scripted(node, scripts, start);
             }
             let mut factorial = 0_u8;
@@ -74,14 +77,31 @@ impl Parser<'_> {
     /// A base with its scripts; after `\left. .. \right|` they are a condition.
     fn scripted(&self, base: Node, scripts: Scripts, start: usize) -> Node {
         match base.kind {
-            Kind::Group { open: Delim::None, close: Delim::Bar, body } if scripts.primes == 0 => {
-                self.evaluated(*body, scripts, start)
-            }
+            Kind::Group { open: Delim::None, close: Delim::Bar, body } => self.evaluated(*body, scripts, start),
             _ => {
                 let Scripts { primes, sub, sup } = scripts;
                 Node::new(Kind::Scripts { base: Box::new(base), primes, sub, sup }, self.since(start))
             }
         }
+    }
+
+    /// The number 5.3 in `5.''3` and `5^\circ.3`: astronomers print the unit at the decimal point. Reads the
+    /// digits after the point; the number keeps the place of those before it.
+    fn number_around(&mut self, node: &Node, scripts: &Scripts) -> Option<Node> {
+        let Kind::Number(whole) = &node.kind else { return None };
+        let degrees = matches!(scripts.sup.as_deref(), Some(Node { kind: Kind::Symbol(name), .. }) if name == "\\circ");
+        let next = self.token().filter(|token| token.kind == TokenKind::Number && token.span.start == self.end)?;
+        let printed = self.text(&next.span);
+        let point = printed.starts_with('.') || self.text(&(node.span.end..next.span.start)).starts_with('.');
+        let unit = (degrees && point && scripts.primes == 0) || (scripts.primes > 0 && scripts.sup.is_none());
+        // `5'30''` is two numbers.
+        let another_unit = !point && matches!(self.tokens.get(self.pos + 1), Some(t) if t.kind == TokenKind::Prime);
+        if !unit || another_unit || scripts.sub.is_some() || whole.contains('.') {
+            return None;
+        }
+        let number = format!("{whole}.{}", digits(printed).trim_start_matches('.'));
+        self.advance();
+        Some(Node::new(Kind::Number(number), node.span.clone()))
     }
 
     /// A body evaluated at a condition, or between two limits: these are the scripts of an empty base.
@@ -91,7 +111,7 @@ impl Parser<'_> {
             (0, Some(at), None) => at,
             (primes, sub, sup) => {
                 let from = [&sub, &sup].into_iter().flatten().map(|script| script.span.start).min();
-                let from = from.unwrap_or(self.last_end());
+                let from = from.unwrap_or(self.end);
                 let base = Box::new(Node::new(Kind::Empty, from..from));
                 Box::new(Node::new(Kind::Scripts { base, primes, sub, sup }, self.since(from)))
             }
@@ -112,7 +132,7 @@ impl Parser<'_> {
                     let span = self.advance();
                     let sub = self.argument("_")?;
                     if scripts.sub.is_some() {
-                        return Err(double("subscript", span.start..self.last_end(), "_"));
+                        return Err(double("subscript", span.start..self.end, "_"));
                     }
                     scripts.sub = Some(Box::new(sub));
                 }
@@ -122,7 +142,7 @@ impl Parser<'_> {
                     let (primes, rest) = split_primes(sup);
                     self.add_primes(&mut scripts, primes, &span)?;
                     if rest.is_some() && scripts.sup.is_some() {
-                        return Err(double("superscript", span.start..self.last_end(), "^"));
+                        return Err(double("superscript", span.start..self.end, "^"));
                     }
                     if let Some(rest) = rest {
                         scripts.sup = Some(Box::new(rest));
@@ -284,7 +304,7 @@ impl Parser<'_> {
     fn argument(&mut self, name: &str) -> Result<Node, ParseError> {
         match self.peek() {
             Some(TokenKind::BraceOpen) => self.nested(Self::braces),
-            Some(TokenKind::Number) => Ok(self.digit()),
+            Some(TokenKind::Number) if !self.found().starts_with('.') => Ok(self.digit()),
             Some(TokenKind::Sign(_) | TokenKind::Times(_)) => Ok(self.symbol()),
             Some(TokenKind::Open(_) | TokenKind::Left(_) | TokenKind::Begin(_) | TokenKind::Sub | TokenKind::Sup)
             | None => Err(self.lacks_argument(name)),
@@ -301,14 +321,18 @@ impl Parser<'_> {
             self.advance();
         } else if let Some(token) = self.tokens.get_mut(self.pos) {
             token.span.start += 1;
+            self.end = digit.end;
         }
         Node::new(Kind::Number(self.text(&digit).to_owned()), digit)
     }
 
     fn lacks_argument(&self, name: &str) -> ParseError {
-        let found = self.token().map_or("the end of the formula", |token| self.text(&token.span));
+        let found = match self.found() {
+            "" => "the end of the formula".to_owned(),
+            found => format!("`{found}`"),
+        };
         let at = self.token().map_or(self.source.len()..self.source.len(), |token| token.span.clone());
-        ParseError::new(format!("`{name}` lacks an argument: found `{found}`"), at)
+        ParseError::new(format!("`{name}` lacks an argument: found {found}"), at)
             .help(format!("put the argument of `{name}` in braces: `{name}{{..}}`"))
     }
 }
@@ -328,7 +352,7 @@ fn juxtaposed(mut factors: Vec<Node>, span: Span) -> Node {
 fn in_font(font: Font, body: Node) -> Kind {
     if font == Font::Roman {
         let letters = match &body.kind {
-            Kind::Text(word) => Some(word.clone()),
+            Kind::Text(_) => letter(&body).map(str::to_owned),
             Kind::Juxt(factors) => factors.iter().map(letter).collect::<Option<String>>(),
             _ => None,
         };
@@ -341,8 +365,7 @@ fn in_font(font: Font, body: Node) -> Kind {
 
 fn letter(node: &Node) -> Option<&str> {
     match &node.kind {
-        Kind::Symbol(name) if name.chars().all(char::is_alphabetic) => Some(name),
-        Kind::Text(word) => Some(word),
+        Kind::Symbol(word) | Kind::Text(word) if word.chars().all(char::is_alphabetic) => Some(word),
         _ => None,
     }
 }

@@ -15,7 +15,7 @@ use super::token::{Token, TokenKind};
 
 /// Reads all tokens as one formula.
 pub(super) fn parse_tokens(source: &str, tokens: Vec<Token>) -> Result<Node, ParseError> {
-    let mut parser = Parser { source, tokens, pos: 0, depth: 0 };
+    let mut parser = Parser { source, tokens, pos: 0, end: 0, depth: 0 };
     let node = parser.rows()?;
     match parser.token() {
         None => Ok(node),
@@ -27,6 +27,8 @@ struct Parser<'a> {
     source: &'a str,
     tokens: Vec<Token>,
     pos: usize,
+    /// Where the last token, or the part of it that was read, ended.
+    end: usize,
     depth: usize,
 }
 
@@ -44,20 +46,16 @@ impl<'a> Parser<'a> {
         self.token().map_or(self.source.len(), |token| token.span.start)
     }
 
-    /// Where the last token ended.
-    fn last_end(&self) -> usize {
-        self.pos.checked_sub(1).and_then(|last| self.tokens.get(last)).map_or(0, |token| token.span.end)
-    }
-
     /// From a beginning to the end of the last token.
     fn since(&self, start: usize) -> Span {
-        start..self.last_end().max(start)
+        start..self.end.max(start)
     }
 
     /// Passes over the next token and gives its place.
     fn advance(&mut self) -> Span {
         let span = self.token().map_or(self.source.len()..self.source.len(), |token| token.span.clone());
         self.pos += 1;
+        self.end = span.end;
         span
     }
 
@@ -65,9 +63,14 @@ impl<'a> Parser<'a> {
         self.source.get(span.clone()).unwrap_or("")
     }
 
+    /// The text of the next token; nothing at the end.
+    fn found(&self) -> &'a str {
+        self.token().map_or("", |token| self.text(&token.span))
+    }
+
     /// Nothing, right after the last token.
     fn empty(&self) -> Node {
-        let end = self.last_end();
+        let end = self.end;
         Node::new(Kind::Empty, end..end)
     }
 

@@ -7,11 +7,14 @@ use crate::latex::error::ParseError;
 impl Parser<'_> {
     /// Rows until the end of the environment or the source; a single row is just that row.
     pub(super) fn rows(&mut self) -> Result<Node, ParseError> {
-        let start = self.here();
-        let mut rows = Vec::new();
+        let mut rows: Vec<Node> = Vec::new();
+        let mut span = self.empty().span;
         loop {
-            if !self.at_end() || self.peek() == Some(TokenKind::Comma) || self.peek() == Some(TokenKind::Over) {
+            let printed = !matches!(self.peek(), None | Some(TokenKind::Row | TokenKind::End(_)));
+            if printed {
+                let start = if rows.is_empty() { self.here() } else { span.start };
                 rows.push(self.body()?);
+                span = self.since(start);
             }
             if self.peek() != Some(TokenKind::Row) {
                 break;
@@ -19,10 +22,9 @@ impl Parser<'_> {
             self.advance();
         }
         match (rows.pop(), rows.is_empty()) {
-            (None, _) => Ok(Node::new(Kind::Empty, start.min(self.last_end())..start.min(self.last_end()))),
+            (None, _) => Ok(Node::new(Kind::Empty, span)),
             (Some(row), true) => Ok(row),
             (Some(last), false) => {
-                let span = rows.first().map_or(start, |row| row.span.start)..last.span.end;
                 rows.push(last);
                 Ok(Node::new(Kind::Rows(rows), span))
             }
@@ -48,6 +50,7 @@ impl Parser<'_> {
     pub(super) fn list(&mut self) -> Result<Node, ParseError> {
         let start = self.here();
         let mut items = vec![self.nested(Self::marked)?];
+        let mut span = self.since(start);
         loop {
             match self.peek() {
                 Some(TokenKind::Comma) => {
@@ -60,13 +63,13 @@ impl Parser<'_> {
                 _ => break,
             }
             items.push(self.nested(Self::marked)?);
+            span = self.since(start);
         }
         match (items.pop(), items.is_empty()) {
             (Some(only), true) => Ok(only),
             (last, _) => {
                 items.extend(last);
-                let end = items.last().map_or(start, |item| item.span.end);
-                Ok(Node::new(Kind::List(items), start..end))
+                Ok(Node::new(Kind::List(items), span))
             }
         }
     }
