@@ -15,6 +15,7 @@ use super::claim::Claim;
 use super::judge::Options;
 use super::random::Random;
 use super::sampling::{PairValue, Sampler, no_state_text};
+use super::shrink::shrink;
 use super::system::State;
 use super::verdict::{LinkJudgement, Strength, Verdict};
 
@@ -110,10 +111,10 @@ fn decide<N: Real>(
     if let Some((k, pair)) = tally.first_failing {
         judgement.verdict = Verdict::Fails;
         judgement.strength = Some(Strength::Numeric);
-        if let Some(branches) = sampler.evaluate::<N>(&states[k], cx, &mut work) {
-            let value = &branches[0][pair];
-            let pair = &sampler.claim.branches[0][pair];
-            judgement.counterexample = Some(sampler.counterexample(&states[k], cx, pair, value));
+        let small = shrink(sampler, &states[k], pair);
+        if let Some(branches) = sampler.evaluate::<N>(&small.state, cx, &mut work) {
+            let (value, pair) = (&branches[0][pair], &sampler.claim.branches[0][pair]);
+            judgement.counterexample = Some(sampler.counterexample(&small.state, cx, pair, value, &small.idle));
         }
     } else if let Some(branch) = tally.branch_hit.iter().position(|hit| !hit).filter(|_| tally.open == 0) {
         let sign = if branch == 0 { "upper" } else { "lower" };
@@ -211,7 +212,7 @@ pub fn inequality(mut judgement: LinkJudgement, mut claim: Claim, name: &str, op
                 judgement.failing_states += 1;
                 if judgement.counterexample.is_none() {
                     let pair = &sampler.claim.branches[0][pair];
-                    judgement.counterexample = Some(sampler.counterexample(state, &(), pair, value));
+                    judgement.counterexample = Some(sampler.counterexample(state, &(), pair, value, &[]));
                 }
             }
         }

@@ -3,14 +3,14 @@
 use std::collections::BTreeMap;
 
 use crate::expr::Workspace;
-use crate::number::{Df64, Number};
+use crate::number::Df64;
 use crate::semantics::Clause;
 
 use super::book::{Book, Version};
 use super::claim::{Claim, Obstacle, Source, obstacle_text};
 use super::judge::Options;
 use super::random::Random;
-use super::sampling::{Sampler, no_state_text};
+use super::sampling::{Sampler, no_state_text, shown};
 use super::verdict::Assignment;
 
 /// The number of states that are shown.
@@ -87,9 +87,9 @@ fn link(clause: &Clause, claim: Result<Claim, Obstacle>, options: &Options) -> I
     for state in &states {
         let Some(branches) = sampler.evaluate::<Df64>(state, &(), &mut work) else { continue };
         let Some((pair, value)) = sampler.claim.branches[0].first().zip(branches[0].first()) else { continue };
-        let symbols = sampler.counterexample(state, &(), pair, value).state;
+        let symbols = sampler.counterexample(state, &(), pair, value, &[]).state;
         let pairs = sampler.claim.branches.iter().flatten().zip(branches.iter().flatten());
-        let sides = pairs.map(|(p, v)| (p.name.clone(), v.lhs.to_decimal(16), v.rhs.to_decimal(16))).collect();
+        let sides = pairs.map(|(p, v)| (p.name.clone(), shown(&v.lhs, 16), shown(&v.rhs, 16))).collect();
         inspection.states.push(InspectedState { symbols, sides });
     }
     inspection

@@ -11,6 +11,7 @@ mod order;
 mod premises;
 mod random;
 mod sampling;
+mod shrink;
 mod system;
 pub mod verdict;
 

@@ -87,7 +87,7 @@ pub fn judge(
             });
             let k = pair.unwrap_or(0);
             let pair = &sampler.claim.branches[0][k];
-            judgement.counterexample = Some(sampler.counterexample(&state, &(), pair, &branches[0][k]));
+            judgement.counterexample = Some(sampler.counterexample(&state, &(), pair, &branches[0][k], &[]));
         }
     }
     judgement

@@ -61,9 +61,8 @@ impl Decimal {
 
 impl std::fmt::Display for Decimal {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        let digits = (self.den as f64).log10().round() as usize;
-        let text = format!("{:.digits$}", self.to_f64());
-        let text = if text.contains('.') { text.trim_end_matches('0').trim_end_matches('.') } else { &text };
+        // The shortest decimal that is the double nearest to it: short for what is drawn, honest for the rest.
+        let text = format!("{}", self.to_f64());
         write!(f, "{text}")
     }
 }

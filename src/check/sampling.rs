@@ -20,9 +20,9 @@ pub struct PairValue<N: Number> {
     /// Left minus right.
     pub residual: Tracked<N>,
     /// The left side.
-    pub lhs: N,
+    pub lhs: Tracked<N>,
     /// The right side.
-    pub rhs: N,
+    pub rhs: Tracked<N>,
     /// log₂ of the sum of the magnitudes of the residual's terms.
     pub scale_log2: f64,
 }
@@ -136,8 +136,8 @@ impl<'c> Sampler<'c> {
         for n in &self.branches {
             let pairs = quadruples.by_ref().take(*n).map(|q| PairValue {
                 residual: q[0].clone(),
-                lhs: q[1].value().clone(),
-                rhs: q[2].value().clone(),
+                lhs: q[1].clone(),
+                rhs: q[2].clone(),
                 scale_log2: q[3].value().log2_abs(),
             });
             branches.push(pairs.collect());
@@ -145,19 +145,22 @@ impl<'c> Sampler<'c> {
         Some(branches)
     }
 
-    /// A state for the reader, with the values of a pair's sides.
+    /// A state for the reader, with the values of a pair's sides. Symbols that are `idle` are left out.
     pub fn counterexample<N: Real>(
         &self,
         state: &State,
         cx: &N::Context,
         pair: &Pair,
         value: &PairValue<N>,
+        idle: &[SymId],
     ) -> Counterexample {
         let world = &self.claim.world;
         let mentioned = self.tape.inputs();
         let mut assignments: Vec<Assignment> = Vec::new();
         for (source, value) in self.system.free.iter().zip(&state.free) {
-            assignments.push(Assignment { symbol: world.tex(source.symbol), value: value.to_string() });
+            if !idle.contains(&source.symbol) {
+                assignments.push(Assignment { symbol: world.tex(source.symbol), value: value.to_string() });
+            }
         }
         if let Some(values) = self.system.refine::<N>(state, cx) {
             for u in self.system.unknowns.iter().filter(|u| mentioned.contains(&u.symbol)) {
@@ -167,11 +170,16 @@ impl<'c> Sampler<'c> {
         }
         Counterexample {
             state: assignments,
-            lhs: value.lhs.to_decimal(12),
-            rhs: value.rhs.to_decimal(12),
+            lhs: shown(&value.lhs, 12),
+            rhs: shown(&value.rhs, 12),
             component: pair.name.clone(),
         }
     }
+}
+
+/// A value in decimal; what cannot be told from zero is shown as zero.
+pub fn shown<N: Real>(value: &Tracked<N>, digits: usize) -> String {
+    if value.is_finite() && value.is_zero_within() { "0".into() } else { value.value().to_decimal(digits) }
 }
 
 /// Where a side is an unknown alone, the other side is where to start: a formula for one of several roots finds its own.
