@@ -51,7 +51,10 @@ fn identities_hold_or_fail() {
         (r"(a + b)^2 = a^2 + 2ab + b^2", r"(a + b)^2 = a^2 + ab + b^2"),
         (r"\sin 2a = 2 \sin a \cos a", r"\sin 2a = \sin a \cos a"),
         (r"\frac{d}{dt} (x^2 y) = 2 x \dot{x} y + x^2 \dot{y}", r"\frac{d}{dt} (x^2 y) = 2 x \dot{x} y + x \dot{y}"),
-        (r"\frac{d}{dt} \sin \theta = \cos \theta \dot{\theta}", r"\frac{d}{dt} \sin \theta = -\cos \theta \dot{\theta}"),
+        (
+            r"\frac{d}{dt} \sin \theta = \cos \theta \dot{\theta}",
+            r"\frac{d}{dt} \sin \theta = -\cos \theta \dot{\theta}",
+        ),
         (r"\frac{d}{dt} \sin \omega t = \omega \cos \omega t", r"\frac{d}{dt} \sin \omega t = \cos \omega t"),
         (
             r"\mathbf{u} \times (\mathbf{v} \times \mathbf{w}) = \mathbf{v} (\mathbf{u} \cdot \mathbf{w}) - \mathbf{w} (\mathbf{u} \cdot \mathbf{v})",

@@ -7,7 +7,7 @@ use nalgebra::{DMatrix, DVector};
 use crate::expr::{Expr, Graph, SymId, Tape, Workspace};
 use crate::semantics::World;
 
-use super::newton::descend;
+use super::newton::{Equations, descend};
 use super::random::{Random, draw};
 use super::system::{NoState, Source, Wish, source};
 
@@ -40,20 +40,28 @@ pub fn choose(
     }
     let jacobian = world.graph.jacobian(residuals, candidates);
     let magnitudes: Vec<Expr> = residuals.iter().map(|r| world.graph.magnitude(*r)).collect();
-    let outputs: Vec<Expr> =
-        residuals.iter().copied().chain(jacobian.into_iter().flatten()).chain(magnitudes).collect();
-    let tape = Tape::compile(&world.graph, &outputs);
-    let sources: BTreeMap<SymId, Source> = tape.inputs().iter().map(|s| (*s, source(world, *s))).collect();
-    let m = residuals.len();
+    let sized: Vec<Expr> = residuals.iter().copied().chain(magnitudes).collect();
+    let jacobian: Vec<Expr> = jacobian.into_iter().flatten().collect();
+    let (values, jacobian) = (Tape::compile(&world.graph, &sized), Tape::compile(&world.graph, &jacobian));
+    let symbols = world.graph.symbols(residuals);
+    let sources: BTreeMap<SymId, Source> = symbols.into_iter().map(|s| (s, source(world, s))).collect();
     // The fewest symbols that will do are moved: what the premises determine, not the constants of the problem.
     for stage in 0..3 {
         let movable: Vec<usize> =
             (0..candidates.len()).filter(|k| moves(&world.graph, wish, candidates[*k]) <= stage).collect();
         for _ in 0..if movable.is_empty() { 0 } else { TRIES } {
-            let mut values: BTreeMap<SymId, f64> =
-                sources.iter().map(|(s, src)| (*s, draw(random, src.range, src.integer, false).to_f64())).collect();
-            let Some((j, magnitudes)) = nearest_solution(&tape, candidates, &movable, &mut values, m) else { continue };
-            let sizes: Vec<f64> = movable.iter().map(|k| values[&candidates[*k]].abs().max(1e-3)).collect();
+            let drawn = sources.iter().map(|(s, src)| (*s, draw(random, src.range, src.integer, false).to_f64()));
+            let mut premises = Underdetermined {
+                values: &values,
+                jacobian: &jacobian,
+                count: residuals.len(),
+                moved: movable.iter().map(|k| candidates[*k]).collect(),
+                movable: &movable,
+                at: drawn.collect(),
+                work: Workspace::default(),
+            };
+            let Some((j, magnitudes)) = premises.solve() else { continue };
+            let sizes: Vec<f64> = premises.moved.iter().map(|s| premises.at[s].abs().max(1e-3)).collect();
             let j = scaled(j, &sizes, &magnitudes);
             let columns = independent(&j);
             let narrow = j.select_columns(&columns);
@@ -75,38 +83,63 @@ fn moves(graph: &Graph, wish: &Wish, s: SymId) -> usize {
     }
 }
 
-/// Gauss and Newton's method with steps of least length in the movable candidates; the Jacobian by these at the
-/// solution, and the magnitudes of the residuals' terms.
-fn nearest_solution(
-    tape: &Tape,
-    candidates: &[SymId],
-    movable: &[usize],
-    values: &mut BTreeMap<SymId, f64>,
-    m: usize,
-) -> Option<(DMatrix<f64>, Vec<f64>)> {
-    let n = candidates.len();
-    let mut work = Workspace::default();
-    let mut magnitudes = Vec::new();
-    let start = DVector::from_iterator(movable.len(), movable.iter().map(|k| values[&candidates[*k]]));
-    let mut at = |x: &DVector<f64>| {
-        for (k, x) in movable.iter().zip(x.iter()) {
-            values.insert(candidates[*k], *x);
+/// The premises as a system in more symbols than equations: Newton's method with steps of least length.
+struct Underdetermined<'t> {
+    /// The residuals, then the magnitudes of their terms.
+    values: &'t Tape,
+    /// The Jacobian by all candidates, row by row.
+    jacobian: &'t Tape,
+    /// The number of residuals.
+    count: usize,
+    /// The candidates that are moved, and their places among all.
+    moved: Vec<SymId>,
+    movable: &'t [usize],
+    /// All symbols' values.
+    at: BTreeMap<SymId, f64>,
+    work: Workspace<f64>,
+}
+
+impl Underdetermined<'_> {
+    /// The Jacobian by the moved candidates at a solution, and the magnitudes of the residuals' terms there.
+    fn solve(&mut self) -> Option<(DMatrix<f64>, Vec<f64>)> {
+        let start = DVector::from_iterator(self.moved.len(), self.moved.iter().map(|s| self.at[s]));
+        let (x, jacobian) = descend(start, self)?;
+        let values = self.evaluate(self.values, &x);
+        let (residuals, magnitudes) = values.split_at(self.count);
+        // Not every stationary point is a solution.
+        let solved = residuals.iter().zip(magnitudes).all(|(r, size)| r.abs() <= 1e-9 * size.max(f64::MIN_POSITIVE));
+        solved.then(|| (jacobian, magnitudes.to_vec()))
+    }
+
+    fn evaluate(&mut self, tape: &Tape, x: &DVector<f64>) -> Vec<f64> {
+        for (s, x) in self.moved.iter().zip(x.iter()) {
+            self.at.insert(*s, *x);
         }
-        let inputs: Vec<f64> = tape.inputs().iter().map(|s| values.get(s).copied().unwrap_or(f64::NAN)).collect();
-        let out = tape.eval(&inputs, &(), &mut work);
-        magnitudes = out[m + m * n..].to_vec();
-        let jacobian = DMatrix::from_row_slice(m, n, &out[m..m + m * n]).select_columns(movable);
-        Some((DVector::from_column_slice(&out[..m]), jacobian))
-    };
-    let step = |residual: &DVector<f64>, jacobian: &DMatrix<f64>| {
+        let inputs: Vec<f64> = tape.inputs().iter().map(|s| self.at.get(s).copied().unwrap_or(f64::NAN)).collect();
+        tape.eval(&inputs, &(), &mut self.work).to_vec()
+    }
+}
+
+impl Equations for Underdetermined<'_> {
+    fn residuals(&mut self, x: &DVector<f64>) -> DVector<f64> {
+        let mut values = self.evaluate(self.values, x);
+        values.truncate(self.count);
+        DVector::from_vec(values)
+    }
+
+    fn jacobian(&mut self, x: &DVector<f64>) -> DMatrix<f64> {
+        let values = self.evaluate(self.jacobian, x);
+        DMatrix::from_row_slice(self.count, values.len() / self.count.max(1), &values).select_columns(self.movable)
+    }
+
+    fn step(&self, residuals: &DVector<f64>, jacobian: &DMatrix<f64>) -> Option<DVector<f64>> {
+        if jacobian.iter().any(|x| !x.is_finite()) {
+            return None;
+        }
         let svd = jacobian.clone().svd(true, true);
         let largest = svd.singular_values.iter().copied().fold(f64::MIN_POSITIVE, f64::max);
-        svd.solve(residual, 1e-9 * largest).ok()
-    };
-    let (_, residual, jacobian) = descend(start, &mut at, &step)?;
-    // Not every stationary point is a solution.
-    let solved = residual.iter().zip(&magnitudes).all(|(r, size)| r.abs() <= 1e-9 * size.max(f64::MIN_POSITIVE));
-    solved.then_some((jacobian, magnitudes))
+        svd.solve(residuals, 1e-9 * largest).ok()
+    }
 }
 
 /// The Jacobian by relative changes of the symbols, each row of length 1, so that units play no part. A premise that

@@ -8,8 +8,7 @@ use super::sampling::Sampler;
 use super::system::State;
 
 /// The numbers that are tried for a symbol, the simplest first.
-const SIMPLE: [(i64, i64); 10] =
-    [(0, 1), (1, 1), (2, 1), (3, 1), (-1, 1), (1, 2), (4, 1), (5, 1), (10, 1), (3, 2)];
+const SIMPLE: [(i64, i64); 10] = [(0, 1), (1, 1), (2, 1), (3, 1), (-1, 1), (1, 2), (4, 1), (5, 1), (10, 1), (3, 2)];
 
 /// A difference between the sides that stays visible in the digits that are shown.
 const VISIBLE: f64 = 1e-2;

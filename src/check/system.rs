@@ -10,7 +10,7 @@ use crate::number::{Number, Real, Tracked};
 use crate::semantics::World;
 
 use super::choice::{choose, preference};
-use super::newton::descend;
+use super::newton::{Equations, descend};
 use super::random::{Decimal, Random, draw};
 
 /// The range of a symbol for which none is declared.
@@ -22,10 +22,10 @@ pub struct System {
     pub free: Vec<Source>,
     /// The symbols that are solved for.
     pub unknowns: Vec<Source>,
-    /// The independent residuals, then the Jacobian by the unknowns, row by row.
-    newton: Tape,
-    /// The residuals only.
+    /// The independent residuals.
     values: Tape,
+    /// Their Jacobian by the unknowns, row by row.
+    jacobian: Tape,
     /// The residuals that depend on the others, each with the sum of the magnitudes of its terms.
     rest: Tape,
     symbols: usize,
@@ -90,14 +90,14 @@ impl System {
         let others: Vec<Expr> = (0..residuals.len()).filter(|r| !rows.contains(r)).map(|r| residuals[r]).collect();
 
         let jacobian = world.graph.jacobian(&chosen, &solved);
-        let outputs: Vec<Expr> = chosen.iter().copied().chain(jacobian.into_iter().flatten()).collect();
+        let jacobian: Vec<Expr> = jacobian.into_iter().flatten().collect();
         let rest: Vec<Expr> = others.iter().flat_map(|r| [*r, world.graph.magnitude(*r)]).collect();
         let all: Vec<Expr> = residuals.iter().chain(targets).copied().collect();
         let free = world.graph.symbols(&all).into_iter().filter(|s| !solved.contains(s));
         Ok(System {
             free: free.map(|s| source(world, s)).collect(),
             unknowns: solved.iter().map(|s| source(world, *s)).collect(),
-            newton: Tape::compile(&world.graph, &outputs),
+            jacobian: Tape::compile(&world.graph, &jacobian),
             values: Tape::compile(&world.graph, &chosen),
             rest: Tape::compile(&world.graph, &rest),
             symbols: world.graph.symbol_count(),
@@ -125,15 +125,10 @@ impl System {
         if self.unknowns.is_empty() {
             return self.check(state, &mut work);
         }
-        let solution = descend(
-            DVector::from_column_slice(start),
-            &mut |x| {
-                self.place(state, x);
-                Some(self.newton_values(state, &mut work))
-            },
-            &|residual, jacobian| jacobian.clone().lu().solve(residual),
-        );
-        let Some((x, ..)) = solution else { return Err(NoState::Diverges) };
+        let mut equations = Square { system: self, state, work: &mut work };
+        let Some((x, _)) = descend(DVector::from_column_slice(start), &mut equations) else {
+            return Err(NoState::Diverges);
+        };
         self.place(state, &x);
         self.check(state, &mut work)
     }
@@ -146,8 +141,7 @@ impl System {
                 return Err(NoState::Unsolvable);
             }
         }
-        let inputs: Vec<f64> = self.rest.inputs().iter().map(|s| state.values[s.index()]).collect();
-        let rest = self.rest.eval(&inputs, &(), work);
+        let rest = evaluate(&self.rest, state, work);
         let holds = rest.chunks(2).all(|pair| pair[0].abs() <= 1e-7 * pair[1].max(f64::MIN_POSITIVE));
         if holds { Ok(()) } else { Err(NoState::Contradiction) }
     }
@@ -158,11 +152,9 @@ impl System {
         }
     }
 
-    fn newton_values(&self, state: &State, work: &mut Workspace<f64>) -> (DVector<f64>, DMatrix<f64>) {
+    fn newton_values(&self, state: &State, work: &mut Workspace<f64>) -> DMatrix<f64> {
         let n = self.unknowns.len();
-        let inputs: Vec<f64> = self.newton.inputs().iter().map(|s| state.values[s.index()]).collect();
-        let out = self.newton.eval(&inputs, &(), work);
-        (DVector::from_column_slice(&out[..n]), DMatrix::from_row_slice(n, n, &out[n..n + n * n]))
+        DMatrix::from_row_slice(n, n, evaluate(&self.jacobian, state, work))
     }
 
     /// The state in another number type. The free symbols are exact up to their own rounding; the unknowns are refined
@@ -176,7 +168,7 @@ impl System {
         if n == 0 {
             return Some(values);
         }
-        let (_, jacobian) = self.newton_values(state, &mut Workspace::default());
+        let jacobian = self.newton_values(state, &mut Workspace::default());
         let lu = jacobian.lu();
         let mut x: Vec<N> = self.unknowns.iter().map(|u| N::from_f64(state.values[u.symbol.index()], cx)).collect();
         let mut work = Workspace::default();
@@ -234,6 +226,35 @@ impl System {
             values[u.symbol.index()] = Tracked::with_error(x[i].clone(), log2);
         }
     }
+}
+
+/// The premises as a square system in the unknowns.
+struct Square<'s> {
+    system: &'s System,
+    state: &'s mut State,
+    work: &'s mut Workspace<f64>,
+}
+
+impl Equations for Square<'_> {
+    fn residuals(&mut self, x: &DVector<f64>) -> DVector<f64> {
+        self.system.place(self.state, x);
+        DVector::from_column_slice(evaluate(&self.system.values, self.state, self.work))
+    }
+
+    fn jacobian(&mut self, x: &DVector<f64>) -> DMatrix<f64> {
+        self.system.place(self.state, x);
+        self.system.newton_values(self.state, self.work)
+    }
+
+    fn step(&self, residuals: &DVector<f64>, jacobian: &DMatrix<f64>) -> Option<DVector<f64>> {
+        jacobian.clone().lu().solve(residuals)
+    }
+}
+
+/// A tape's outputs at a state in doubles.
+fn evaluate<'w>(tape: &Tape, state: &State, work: &'w mut Workspace<f64>) -> &'w [f64] {
+    let inputs: Vec<f64> = tape.inputs().iter().map(|s| state.values[s.index()]).collect();
+    tape.eval(&inputs, &(), work)
 }
 
 /// The step J⁻¹F as doubles times 2^scale, so that residuals below the range of doubles are no obstacle.
