@@ -4,7 +4,7 @@
 //! matrices an alignment mark is a wide space, and a wide space between two operands separates them like a comma.
 
 use super::ast::Sign;
-use super::characters::is_japanese;
+use super::characters::{is_japanese, words};
 use super::error::ParseError;
 use super::token::{Environment, Token, TokenKind};
 
@@ -170,7 +170,7 @@ fn separated(source: &str, tokens: Vec<Token>) -> Vec<Token> {
                 *statement = Statement { open: statement.open, ..Statement::default() };
             }
             TokenKind::Text => {
-                let between = statement.separates(next) && joins_statements(&source[span.clone()]);
+                let between = statement.separates(next) && joins_statements(words(&source[span.clone()]));
                 comma = between.then_some(span.end..span.end);
                 statement.ends_operand = true;
             }
@@ -202,8 +202,8 @@ fn separated(source: &str, tokens: Vec<Token>) -> Vec<Token> {
 }
 
 /// Whether a text joins two statements rather than naming a unit or an alternative: Japanese words, `for`, `where`.
-fn joins_statements(text: &str) -> bool {
-    let words = text.split_once('{').map_or(text, |(_, rest)| rest.trim_end_matches('}')).trim();
+pub(super) fn joins_statements(text: &str) -> bool {
+    let words = text.trim();
     let alternative = ["または", "又は", "あるいは", "もしくは", "の"].contains(&words);
     let conjunction =
         ["for", "if", "when", "where", "and", "i.e.", "since", "because", "so", "then", "with", "as", "thus"];
