@@ -92,15 +92,18 @@ impl Parser<'_> {
         let Kind::Number(whole) = &node.kind else { return None };
         let degrees = matches!(scripts.sup.as_deref(), Some(Node { kind: Kind::Symbol(name), .. }) if name == "\\circ");
         let next = self.token().filter(|token| token.kind == TokenKind::Number && token.span.start == self.end)?;
-        let printed = self.text(&next.span);
-        let point = printed.starts_with('.') || self.text(&(node.span.end..next.span.start)).starts_with('.');
+        let before = self.text(&(node.span.end..next.span.start)).starts_with('.');
+        let fraction = digits(self.text(&next.span));
+        let (after, fraction) = fraction.strip_prefix('.').map_or((false, &*fraction), |fraction| (true, fraction));
+        let point = before || after;
         let unit = (degrees && point && scripts.primes == 0) || (scripts.primes > 0 && scripts.sup.is_none());
         // `5'30''` is two numbers.
         let another_unit = !point && matches!(self.tokens.get(self.pos + 1), Some(t) if t.kind == TokenKind::Prime);
-        if !unit || another_unit || scripts.sub.is_some() || whole.contains('.') {
+        let two_points = whole.contains('.') || fraction.contains('.') || (before && after);
+        if !unit || another_unit || scripts.sub.is_some() || two_points {
             return None;
         }
-        let number = format!("{whole}.{}", digits(printed).trim_start_matches('.'));
+        let number = format!("{whole}.{fraction}");
         self.advance();
         Some(Node::new(Kind::Number(number), node.span.clone()))
     }
