@@ -24,9 +24,11 @@ pub struct Node {
 pub enum Kind {
     /// Nothing: an empty group `{}`, `(\quad)`, the missing base of `{}_nC_2`.
     Empty,
-    /// A decimal literal as written: `2`, `0.0173`, with no sign or exponent.
+    /// A decimal literal: `2`, `0.0173`, with no sign or exponent, and without gaps (`6\,378\,137` is `6378137`). The
+    /// seconds of arc in `0.''2` are the primes of the number `0.2`.
     Number(String),
-    /// A letter (`x`, `質`) or a symbol macro with its backslash (`\theta`, `\ell`, `\partial`, `\infty`, `\nabla`).
+    /// A letter (`x`) or a symbol macro with its backslash (`\theta`, `\ell`, `\partial`, `\infty`, `\nabla`); also an
+    /// operator that stands alone, as in `F^*`, `\alpha_-` and `(*)`.
     Symbol(String),
     /// A name printed upright that is applied to what follows: `\sin`, `\exp`, `\max`, `\operatorname{dn}`,
     /// `\mathrm{sn}`; without backslash. Powers and indices stand in a surrounding [`Kind::Scripts`].
@@ -39,9 +41,9 @@ pub enum Kind {
     Accent(Accent, Box<Node>),
     /// Time derivatives printed as dots: `\dot{x}` is 1, `\ddot{x}` 2, `\dddot{x}` 3.
     Dots(u8, Box<Node>),
-    /// Words: `\text{const.}`, `\mbox`, `\textrm`; also a run of Japanese outside `\text`.
+    /// Words: `\text{const.}`, `\mbox`, `\textrm`; also a run of Japanese outside `\text`, and the bare word `const`.
     Text(String),
-    /// A base with primes, subscript and superscript in any order of writing.
+    /// A base with primes, subscript and superscript in any order of writing; `x^{\prime}` is a prime.
     Scripts {
         /// What carries the scripts; [`Kind::Empty`] in `{}_nC_2`.
         base: Box<Node>,
@@ -52,7 +54,8 @@ pub enum Kind {
         /// The superscript, primes not included.
         sup: Option<Box<Node>>,
     },
-    /// Factors side by side, two or more, none of them a `Juxt`; nothing is applied yet.
+    /// Factors side by side, two or more, none of them a `Juxt`; nothing is applied yet. `\binom{n}{k}` is the function
+    /// `binom` and a group that holds a list of two.
     Juxt(Vec<Node>),
     /// Factors joined by visible operators, from left to right; binds weaker than [`Kind::Juxt`].
     Product {
@@ -81,7 +84,9 @@ pub enum Kind {
         /// What stands between them.
         body: Box<Node>,
     },
-    /// What is separated by commas or semicolons: tuples within a group, several statements at the top.
+    /// What is separated by commas or semicolons: tuples within a group, several statements at the top. Outside brackets
+    /// a wide space or an alignment mark between two operands separates too, and everywhere words between two operands
+    /// that are no unit or alternative (`0 \text{ for } x = 1`); these words end the item before them.
     List(Vec<Node>),
     /// A chain of relations `a = b < c`.
     Chain {
@@ -99,7 +104,7 @@ pub enum Kind {
     },
     /// The rows of `aligned`, `align`, `gathered`, `split` and the like (alignment marks dropped), or of a bare source
     /// that holds `\\`. A row that begins with a binary operator in an empty first cell has been joined to the row
-    /// above; a row break within brackets has been passed over.
+    /// above; a row break within brackets has been passed over. The span does not hold `\begin` and `\end`.
     Rows(Vec<Node>),
     /// A statement marked as `\therefore` or `\because`.
     Marked(Mark, Box<Node>),
@@ -116,11 +121,12 @@ pub enum Kind {
     Ellipsis,
     /// `n!` is 1, `n!!` is 2.
     Factorial(u8, Box<Node>),
-    /// A body evaluated at a condition: `F|_{x = 0}`, `\left. F \right|_{x=0}`.
+    /// A body evaluated at a condition: `F|_{x = 0}`, `\left. F \right|_{x=0}`. The body before a bare bar is all that
+    /// stands before it in its term.
     At {
         /// What is evaluated.
         body: Box<Node>,
-        /// The condition.
+        /// The condition; for limits, as in `F|_0^t`, the [`Kind::Scripts`] of an empty base.
         at: Box<Node>,
     },
 }

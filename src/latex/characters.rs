@@ -89,3 +89,9 @@ pub(super) fn is_japanese(c: char) -> bool {
         '\u{3003}'..='\u{30ff}' | '\u{3400}'..='\u{4dbf}' | '\u{4e00}'..='\u{9fff}' | '\u{f900}'..='\u{faff}' | '\u{ff66}'..='\u{ff9f}')
         && !matches!(c, '\u{3000}' | '、' | '。')
 }
+
+/// What stands in the braces of `\text{..}`; all of a text that is not in braces.
+pub(super) fn words(text: &str) -> &str {
+    let inner = text.split_once('{').and_then(|(_, rest)| rest.strip_suffix('}'));
+    inner.filter(|_| text.starts_with('\\')).unwrap_or(text)
+}

@@ -4,7 +4,7 @@
 //! matrices an alignment mark is a wide space, and a wide space between two operands separates them like a comma.
 
 use super::ast::Sign;
-use super::characters::is_japanese;
+use super::characters::{is_japanese, words};
 use super::error::ParseError;
 use super::token::{Environment, Token, TokenKind};
 
@@ -44,6 +44,8 @@ enum PlaceKind {
 struct RowSoFar {
     /// The row break before it.
     broken_at: Option<usize>,
+    /// Whether the row before it ends with an operator or a relation, whose right side is this row.
+    awaited: bool,
     /// Whether an alignment mark stood before its first token.
     first_cell_empty: bool,
     /// Its first token other than a space or an alignment mark.
@@ -53,9 +55,12 @@ struct RowSoFar {
 }
 
 impl RowSoFar {
-    /// Whether the row continues the one above: it begins with an operator and states nothing of its own. Where nothing
-    /// is aligned, only a minus may begin a statement.
+    /// Whether the row continues the one above: that one waits for an operand, or this one begins with an operator and
+    /// states nothing of its own. Where nothing is aligned, only a minus may begin a statement.
     fn continues(&self) -> bool {
+        if self.awaited && !matches!(self.first, None | Some(TokenKind::Relation(_))) {
+            return true;
+        }
         let stays_open = self.first_cell_empty || !self.has_relation;
         match self.first {
             Some(TokenKind::Sign(Sign::Minus)) => stays_open,
@@ -84,7 +89,7 @@ fn rows(source: &str, tokens: &mut [Token]) -> Result<Vec<bool>, ParseError> {
             }
             TokenKind::Row => {
                 match place.kind {
-                    PlaceKind::Rows => end_row(&mut keep, place, Some(i)),
+                    PlaceKind::Rows => end_row(&mut keep, place, Some((i, awaits(tokens, i)))),
                     PlaceKind::Cells | PlaceKind::Stack => {}
                     PlaceKind::Inside => keep[i] = false,
                 }
@@ -120,15 +125,29 @@ fn rows(source: &str, tokens: &mut [Token]) -> Result<Vec<bool>, ParseError> {
     Ok(keep)
 }
 
-/// Decides on the break before the row that ends here, and begins the next.
-fn end_row(keep: &mut [bool], place: &mut Place, break_at: Option<usize>) {
+/// Decides on the break before the row that ends here, and begins the next, after a break at a place and perhaps after
+/// an operator.
+fn end_row(keep: &mut [bool], place: &mut Place, next: Option<(usize, bool)>) {
     if place.kind == PlaceKind::Rows
         && place.row.continues()
         && let Some(broken_at) = place.row.broken_at
     {
         keep[broken_at] = false;
     }
-    place.row = RowSoFar { broken_at: break_at, ..RowSoFar::default() };
+    place.row = RowSoFar {
+        broken_at: next.map(|(at, _)| at),
+        awaited: next.is_some_and(|(_, awaited)| awaited),
+        ..RowSoFar::default()
+    };
+}
+
+/// Whether an operator or a relation stands before a row break; one that is a script, as in `F^*`, awaits nothing.
+fn awaits(tokens: &[Token], row: usize) -> bool {
+    let mut before = tokens[..row].iter().rev().map(|token| token.kind).filter(|kind| *kind != TokenKind::Quad);
+    let last = before.next();
+    let script = matches!(before.next(), Some(TokenKind::Sub | TokenKind::Sup));
+    let open = matches!(last, Some(TokenKind::Sign(_) | TokenKind::Times(_) | TokenKind::Relation(_)));
+    open && !script
 }
 
 fn misplaced(source: &str, token: &Token) -> ParseError {
@@ -170,7 +189,7 @@ fn separated(source: &str, tokens: Vec<Token>) -> Vec<Token> {
                 *statement = Statement { open: statement.open, ..Statement::default() };
             }
             TokenKind::Text => {
-                let between = statement.separates(next) && joins_statements(&source[span.clone()]);
+                let between = statement.separates(next) && joins_statements(words(&source[span.clone()]));
                 comma = between.then_some(span.end..span.end);
                 statement.ends_operand = true;
             }
@@ -202,8 +221,8 @@ fn separated(source: &str, tokens: Vec<Token>) -> Vec<Token> {
 }
 
 /// Whether a text joins two statements rather than naming a unit or an alternative: Japanese words, `for`, `where`.
-fn joins_statements(text: &str) -> bool {
-    let words = text.split_once('{').map_or(text, |(_, rest)| rest.trim_end_matches('}')).trim();
+pub(super) fn joins_statements(text: &str) -> bool {
+    let words = text.trim();
     let alternative = ["または", "又は", "あるいは", "もしくは", "の"].contains(&words);
     let conjunction =
         ["for", "if", "when", "where", "and", "i.e.", "since", "because", "so", "then", "with", "as", "thus"];

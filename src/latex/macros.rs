@@ -147,7 +147,7 @@ fn tokens(all: &mut impl FnMut(&'static str, Meaning)) {
     all("div slash", TokenKind::Times(ProductOp::Slash));
     all("wedge land", TokenKind::Times(ProductOp::Wedge));
     all("otimes", TokenKind::Times(ProductOp::Tensor));
-    all("circ oplus ominus vee lor cup cap setminus backslash diamond", TokenKind::Times(ProductOp::Other));
+    all("circ bmod oplus ominus vee lor cup cap setminus backslash diamond", TokenKind::Times(ProductOp::Other));
     all("sum", TokenKind::BigOp(BigOp::Sum));
     all("prod", TokenKind::BigOp(BigOp::Product));
     all("int", TokenKind::BigOp(BigOp::Integral));
@@ -157,7 +157,7 @@ fn tokens(all: &mut impl FnMut(&'static str, Meaning)) {
     all("therefore", TokenKind::Mark(Mark::Therefore));
     all("because", TokenKind::Mark(Mark::Because));
     all("mid", TokenKind::Comma);
-    all("frac dfrac tfrac cfrac", TokenKind::Frac);
+    all("frac dfrac tfrac cfrac sfrac nicefrac", TokenKind::Frac);
     all("over", TokenKind::Over);
     all("sqrt", TokenKind::Sqrt);
     all("binom dbinom tbinom", TokenKind::Binom);

@@ -261,7 +261,9 @@ impl<'a> Lexer<'a> {
         let name = argument.trim().trim_end_matches('*');
         let environment = match name {
             "aligned" | "align" | "alignedat" | "alignat" | "gathered" | "gather" | "split" | "equation"
-            | "multline" | "multlined" | "eqnarray" | "flalign" | "displaymath" | "math" => Environment::Rows,
+            | "multline" | "multlined" | "eqnarray" | "IEEEeqnarray" | "flalign" | "displaymath" | "math" => {
+                Environment::Rows
+            }
             "matrix" | "pmatrix" | "bmatrix" | "Bmatrix" | "smallmatrix" => Environment::Matrix(MatrixEnv::Matrix),
             "vmatrix" | "Vmatrix" => Environment::Matrix(MatrixEnv::Determinant),
             "array" | "subarray" => Environment::Matrix(MatrixEnv::Array),
@@ -277,7 +279,7 @@ impl<'a> Lexer<'a> {
                 self.skip_while(|c| c != ']');
                 self.pos += usize::from(self.rest().starts_with(']'));
             }
-            if matches!(name, "array" | "subarray" | "alignedat" | "alignat") {
+            if matches!(name, "array" | "subarray" | "alignedat" | "alignat" | "IEEEeqnarray") {
                 self.raw_argument(start)?;
             }
         }

@@ -4,7 +4,10 @@
 //! equal up to spans. Where a part binds weaker than its place asks for, it is put in braces, which print nothing.
 
 use super::ast::{Accent, BigOp, Delim, Font, Kind, Link, Mark, MatrixEnv, Node, ProductOp, Rel, Sign, Term};
-use super::macros;
+use super::characters::character;
+use super::layout::joins_statements;
+use super::macros::{self, Meaning};
+use super::token::TokenKind;
 
 /// Writes a tree as LaTeX.
 ///
@@ -32,7 +35,8 @@ enum Level {
 /// How strongly a node binds.
 fn level(node: &Node) -> Level {
     match &node.kind {
-        Kind::List(_) => Level::List,
+        Kind::List(_) | Kind::Rows(_) => Level::List,
+        Kind::Symbol(text) if is_operator(text) => Level::List,
         Kind::Marked(..) => Level::Marked,
         Kind::Chain { .. } => Level::Chain,
         Kind::Sum(_) => Level::Sum,
@@ -43,6 +47,18 @@ fn level(node: &Node) -> Level {
         Kind::Styled(Font::Roman, _) | Kind::At { .. } => Level::Factor,
         _ => Level::Base,
     }
+}
+
+/// Whether a symbol is an operator that stands alone, as in `F^*`.
+fn is_operator(text: &str) -> bool {
+    let kind = match text.strip_prefix('\\') {
+        Some(name) => match macros::meaning(name) {
+            Some(Meaning::Token(kind)) => Some(kind),
+            _ => None,
+        },
+        None => text.chars().next().and_then(character),
+    };
+    matches!(kind, Some(TokenKind::Sign(_) | TokenKind::Times(_)))
 }
 
 /// Writes a node at a place that asks for a level.
@@ -89,7 +105,7 @@ fn plain(node: &Node, out: &mut String) {
         Kind::Accent(accent, body) => applied(accent_macro(*accent, body), body, out),
         Kind::Dots(count, body) => applied(dots_macro(*count), body, out),
         Kind::Scripts { base, primes, sub, sup } => scripts(base, *primes, sub.as_deref(), sup.as_deref(), out),
-        Kind::Juxt(factors) => joined(factors, Level::Factor, " ", out),
+        Kind::Juxt(factors) => juxtaposed(factors, out),
         Kind::Product { first, rest } => product(first, rest, out),
         Kind::Sum(terms) => sum(terms, out),
         Kind::Frac(above, below) => {
@@ -146,6 +162,19 @@ fn scripts(base: &Node, primes: u8, sub: Option<&Node>, sup: Option<&Node>, out:
         if let Some(script) = script {
             out.push(mark);
             braced(script, out);
+        }
+    }
+}
+
+fn juxtaposed(factors: &[Node], out: &mut String) {
+    for (i, factor) in factors.iter().enumerate() {
+        if i > 0 {
+            out.push(' ');
+        }
+        match &factor.kind {
+            // Between two operands the words would separate statements.
+            Kind::Text(text) if i > 0 && i + 1 < factors.len() && joins_statements(text) => braced(factor, out),
+            _ => write(factor, Level::Factor, out),
         }
     }
 }
@@ -264,6 +293,7 @@ fn aligned(rows: &[Node], out: &mut String) {
 /// Whether the LaTeX of a node begins with a sign or an operator.
 fn begins_with_operator(node: &Node) -> bool {
     match &node.kind {
+        Kind::Symbol(text) => is_operator(text),
         Kind::Sum(terms) => terms.first().is_some_and(|term| term.sign_span.is_some()),
         Kind::List(items) => items.first().is_some_and(begins_with_operator),
         Kind::Chain { first: Some(first), .. } => begins_with_operator(first),

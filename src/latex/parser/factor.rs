@@ -2,6 +2,7 @@
 
 use super::{Parser, TokenKind};
 use crate::latex::ast::{Accent, Delim, Font, Kind, Node, Span};
+use crate::latex::characters::words;
 use crate::latex::error::ParseError;
 
 /// The scripts read so far.
@@ -91,15 +92,18 @@ impl Parser<'_> {
         let Kind::Number(whole) = &node.kind else { return None };
         let degrees = matches!(scripts.sup.as_deref(), Some(Node { kind: Kind::Symbol(name), .. }) if name == "\\circ");
         let next = self.token().filter(|token| token.kind == TokenKind::Number && token.span.start == self.end)?;
-        let printed = self.text(&next.span);
-        let point = printed.starts_with('.') || self.text(&(node.span.end..next.span.start)).starts_with('.');
+        let before = self.text(&(node.span.end..next.span.start)).starts_with('.');
+        let fraction = digits(self.text(&next.span));
+        let (after, fraction) = fraction.strip_prefix('.').map_or((false, &*fraction), |fraction| (true, fraction));
+        let point = before || after;
         let unit = (degrees && point && scripts.primes == 0) || (scripts.primes > 0 && scripts.sup.is_none());
         // `5'30''` is two numbers.
         let another_unit = !point && matches!(self.tokens.get(self.pos + 1), Some(t) if t.kind == TokenKind::Prime);
-        if !unit || another_unit || scripts.sub.is_some() || whole.contains('.') {
+        let two_points = whole.contains('.') || fraction.contains('.') || (before && after);
+        if !unit || another_unit || scripts.sub.is_some() || two_points {
             return None;
         }
-        let number = format!("{whole}.{}", digits(printed).trim_start_matches('.'));
+        let number = format!("{whole}.{fraction}");
         self.advance();
         Some(Node::new(Kind::Number(number), node.span.clone()))
     }
@@ -235,13 +239,13 @@ impl Parser<'_> {
     /// `\text{..}`, or bare words.
     fn words(&mut self) -> Node {
         let span = self.advance();
-        Node::new(Kind::Text(raw_argument(self.text(&span)).to_owned()), span)
+        Node::new(Kind::Text(words(self.text(&span)).to_owned()), span)
     }
 
     fn function(&mut self) -> Node {
         let span = self.advance();
         let text = self.text(&span);
-        let argument = raw_argument(text);
+        let argument = words(text);
         let name: String = if argument.len() == text.len() {
             text.trim_start_matches('\\').to_owned()
         } else {
@@ -303,8 +307,8 @@ impl Parser<'_> {
     /// The argument of a macro or script: what is in braces, or the next token.
     fn argument(&mut self, name: &str) -> Result<Node, ParseError> {
         match self.peek() {
-            Some(TokenKind::BraceOpen) => self.nested(Self::braces),
-            Some(TokenKind::Number) if !self.found().starts_with('.') => Ok(self.digit()),
+            Some(TokenKind::BraceOpen) => self.braces(),
+            Some(TokenKind::Number) if self.found().starts_with(|c: char| c.is_ascii_digit()) => Ok(self.digit()),
             Some(TokenKind::Sign(_) | TokenKind::Times(_)) => Ok(self.symbol()),
             Some(TokenKind::Open(_) | TokenKind::Left(_) | TokenKind::Begin(_) | TokenKind::Sub | TokenKind::Sup)
             | None => Err(self.lacks_argument(name)),
@@ -390,12 +394,6 @@ fn split_primes(sup: Node) -> (u8, Option<Node>) {
 /// A number without the gaps between groups of digits.
 fn digits(text: &str) -> String {
     text.chars().filter(|c| c.is_ascii_digit() || *c == '.').collect()
-}
-
-/// What stands in the braces of `\text{..}`; all of it where there are none.
-fn raw_argument(text: &str) -> &str {
-    let inner = text.split_once('{').and_then(|(_, rest)| rest.strip_suffix('}'));
-    inner.filter(|_| text.starts_with('\\')).unwrap_or(text)
 }
 
 fn double(which: &str, span: Span, mark: &str) -> ParseError {

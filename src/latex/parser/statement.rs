@@ -49,20 +49,23 @@ impl Parser<'_> {
     /// Statements separated by commas; a comma at the end separates nothing.
     pub(super) fn list(&mut self) -> Result<Node, ParseError> {
         let start = self.here();
-        let mut items = vec![self.nested(Self::marked)?];
+        let mut items = vec![self.marked()?];
         let mut span = self.since(start);
         loop {
             match self.peek() {
                 Some(TokenKind::Comma) => {
                     self.advance();
                     if self.at_end() && self.peek() != Some(TokenKind::Comma) {
+                        if items.last().is_some_and(|item| item.kind == Kind::Empty) {
+                            span = self.since(start);
+                        }
                         break;
                     }
                 }
                 Some(TokenKind::Mark(_)) => {}
                 _ => break,
             }
-            items.push(self.nested(Self::marked)?);
+            items.push(self.marked()?);
             span = self.since(start);
         }
         match (items.pop(), items.is_empty()) {
@@ -78,7 +81,7 @@ impl Parser<'_> {
     fn marked(&mut self) -> Result<Node, ParseError> {
         let Some(TokenKind::Mark(mark)) = self.peek() else { return self.chain() };
         let start = self.advance().start;
-        let statement = self.nested(Self::marked)?;
+        let statement = if self.at_end() { self.empty() } else { self.nested(Self::marked)? };
         Ok(Node::new(Kind::Marked(mark, Box::new(statement)), self.since(start)))
     }
 
@@ -86,7 +89,9 @@ impl Parser<'_> {
     fn chain(&mut self) -> Result<Node, ParseError> {
         let start = self.here();
         if self.at_end() {
-            return Ok(self.empty());
+            // Nothing before a comma stands at the comma, nothing in a group at its opening.
+            let closed = self.peek().is_none_or(TokenKind::closes);
+            return Ok(if closed { self.empty() } else { Node::new(Kind::Empty, start..start) });
         }
         if let Some(operator) = self.lone_operator() {
             return Ok(operator);

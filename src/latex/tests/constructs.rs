@@ -177,6 +177,10 @@ fn rows() {
         ("\\begin{aligned} a &= b \\\\ - c \\end{aligned}", "(c a Eq (+ b Minus:c))"),
         ("a = b \\\\ \\pm c = 0", "(c a Eq (+ b PlusMinus:c) Eq 0)"),
         ("a = b \\\\ - c = 0", "(rows (c a Eq b) (c (+ Minus:c) Eq 0))"),
+        ("a &= b + \\\\ &\\quad c", "(c a Eq (+ b Plus:c))"),
+        ("a = \\\\ b", "(c a Eq b)"),
+        ("a = F^* \\\\ b = c", "(rows (c a Eq (s F ^*)) (c b Eq c))"),
+        ("a \\Rightarrow \\\\ = b", "(rows (c a Implies ()) (c - Eq b))"),
         ("a = ( b \\\\ & = c )", "(c a Eq [Paren (c b Eq c)])"),
         ("\\begin{aligned} a &= b & c &= d \\end{aligned}", "(list (c a Eq b) (c c Eq d))"),
         (
