@@ -12,6 +12,7 @@ mod premises;
 mod random;
 mod sampling;
 mod system;
+mod trouble;
 pub mod verdict;
 
 pub use book::{Book, Entry, Formula, Unclear, Version};
