@@ -9,6 +9,7 @@ use clap::{Parser, Subcommand, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::check::Options;
+use crate::document::Problem;
 use crate::explain;
 use crate::report::{self, Run, terminal};
 use crate::verify::{self, Request, Verified};
@@ -19,6 +20,9 @@ const AS_EXPECTED: u8 = 0;
 const NOT_AS_EXPECTED: u8 = 1;
 /// Exit code: the input could not be read, or the arguments are wrong.
 const UNUSABLE: u8 = 2;
+
+/// The most problems that are shown in the source for each document.
+const MOST_SHOWN: usize = 20;
 
 /// A doctest for the equations of lecture notes.
 #[derive(Debug, Parser)]
@@ -70,8 +74,8 @@ struct Sampling {
     #[arg(long, value_name = "BITS", value_parser = precision)]
     precision: Option<u32>,
     /// The number of threads; one for each core otherwise.
-    #[arg(long, value_name = "N")]
-    jobs: Option<usize>,
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
+    jobs: Option<u16>,
 }
 
 /// What `verify` prints.
@@ -132,8 +136,8 @@ pub fn main() -> ExitCode {
 }
 
 /// Runs with the number of threads that is asked for. A deep formula needs more stack than threads usually have.
-fn in_pool(jobs: Option<usize>, work: impl FnOnce() -> miette::Result<u8> + Send) -> miette::Result<u8> {
-    let builder = rayon::ThreadPoolBuilder::new().num_threads(jobs.unwrap_or(0)).stack_size(32 << 20);
+fn in_pool(jobs: Option<u16>, work: impl FnOnce() -> miette::Result<u8> + Send) -> miette::Result<u8> {
+    let builder = rayon::ThreadPoolBuilder::new().num_threads(jobs.map_or(0, usize::from)).stack_size(32 << 20);
     let pool = builder.build().map_err(|e| miette::miette!("no threads could be started: {e}"))?;
     pool.install(work)
 }
@@ -146,16 +150,32 @@ fn verify_command(request: &Request, out: &std::path::Path, format: Format) -> m
     let verified: Vec<Verified> =
         documents.into_iter().map(|document| verify::verify(document, request, &|| bar.inc(1))).collect();
     bar.finish_and_clear();
-    for v in &verified {
-        for problem in &v.problems {
-            eprintln!("{:?}", problem.to_miette(&v.document));
-        }
-    }
     check_labels(request, &verified)?;
+    for v in &verified {
+        show_problems(v);
+    }
     let run = verify::run(&verified, request, begin);
     let written = report::write(&run, out)?;
     print(&run, format, &written)?;
     Ok(if verify::all_as_expected(&verified) { AS_EXPECTED } else { NOT_AS_EXPECTED })
+}
+
+/// Shows what is wrong with the document, and what stands in the way of verdicts that are not expected, in the source.
+fn show_problems(verified: &Verified) {
+    let surprising = verified.report.equations.iter().filter(|e| !e.as_expected);
+    let mut problems: Vec<&Problem> = verified.problems.iter().collect();
+    for problem in surprising.flat_map(|e| e.problems()) {
+        // A premise that does not exist has been told already.
+        if !verified.problems.iter().any(|p| p.span == problem.span) {
+            problems.push(problem);
+        }
+    }
+    for problem in problems.iter().take(MOST_SHOWN) {
+        eprintln!("{:?}", problem.to_miette(&verified.document));
+    }
+    if problems.len() > MOST_SHOWN {
+        eprintln!("... and {} more: each is listed in the summary\n", problems.len() - MOST_SHOWN);
+    }
 }
 
 /// A label that is asked for and is nowhere is an error: silence would look like success.

@@ -165,10 +165,12 @@ impl Book {
                     ));
                 }
             }
+            // Each circle is reported once, at its first equation.
             if let Some(circle) = self.circle(index)
+                && circle.iter().all(|label| self.labels.get(label).is_none_or(|k| *k >= index))
                 && let Some(first) = entry.list(|a| &a.given).first()
             {
-                let message = format!("the premises go in a circle: {}", circle.join(" -> "));
+                let message = format!("the premises go in a circle: {}", circle.join(" → "));
                 problems.push(
                     Problem::error("kenzan::circle", message, first.span.clone())
                         .help("an equation cannot be derived from one that is derived from it"),
@@ -215,8 +217,15 @@ impl Book {
         }
         let mut statement: Option<Statement> = None;
         for (at, version) in chain.into_iter().rev() {
-            let tree = self.entries[at].formula(version).tree.as_ref().map_err(|e| Unclear::Latex(e.clone()))?;
-            statement = Some(semantics::statement(tree, statement.as_ref()).map_err(Unclear::Meaning)?);
+            let before = |message: &str| Unclear::Before(self.entries[at].equation.label.clone(), message.to_owned());
+            let tree = self.entries[at].formula(version).tree.as_ref().map_err(|e| match at {
+                _ if at == index => Unclear::Latex(e.clone()),
+                _ => before(&e.message),
+            })?;
+            statement = Some(semantics::statement(tree, statement.as_ref()).map_err(|e| match at {
+                _ if at == index => Unclear::Meaning(e),
+                _ => before(&e.message),
+            })?);
         }
         statement.ok_or_else(|| Unclear::Meaning(semantics::Error::unsupported("nothing is printed here", &(0..0))))
     }
@@ -236,6 +245,8 @@ pub enum Unclear {
     Latex(ParseError),
     /// Its meaning is not clear.
     Meaning(semantics::Error),
+    /// It continues the equation of this label, which cannot be understood: the error's text.
+    Before(String, String),
 }
 
 /// The scopes of the sections that are open, the innermost last.

@@ -2,9 +2,12 @@
 
 use std::collections::BTreeSet;
 
-use crate::document::Spanned;
+use crate::document::{Span, Spanned};
 use crate::expr::{Expr, Node, SymId};
-use crate::latex::ast::{self, Rel};
+use crate::latex::{
+    ParseError,
+    ast::{self, Rel},
+};
 use crate::semantics::{self, Clause, Elaborator, Error, Scope, Side, TypedLink, Value, World};
 
 use super::book::{Book, Formula, Unclear, Version};
@@ -53,8 +56,8 @@ pub struct Claim {
 pub enum Obstacle {
     /// The link itself.
     Link(Error),
-    /// A premise: its name and the error's text.
-    Premise(String, String),
+    /// A premise: its name, the error's text, and the bytes of the file that are at fault in the annotation.
+    Premise(String, String, Span),
 }
 
 /// What a claim is made from.
@@ -92,6 +95,10 @@ impl Source<'_> {
         let kept: BTreeSet<SymId> = small.iter().map(|(s, _)| *s).collect();
         let mut premises = Premises::new(&mut world.graph, &given, &kept);
         let mut targets = Vec::new();
+        // What the link speaks of before the premises are put in: these may leave nothing of it, and still contradict
+        // each other there.
+        let printed: Vec<Expr> = branches.iter().flatten().map(|pair| pair.residual).collect();
+        let mentioned = world.graph.symbols(&printed);
         for pair in branches.iter_mut().flatten() {
             for e in [&mut pair.lhs, &mut pair.rhs, &mut pair.residual] {
                 *e = premises.resolve(&mut world.graph, *e);
@@ -99,7 +106,7 @@ impl Source<'_> {
             targets.extend([pair.residual, pair.lhs, pair.rhs]);
         }
         targets.extend(small.iter().map(|(s, _)| world.graph.sym(*s)).collect::<Vec<_>>());
-        premises.keep_related(&world.graph, &targets);
+        premises.keep_related(&world.graph, &targets, mentioned);
         premises.close_in_time(&mut world.graph, &targets);
         let (lhs_text, rhs_text) = typed.first().map(|l| (l.lhs_text.clone(), l.rhs_text.clone())).unwrap_or_default();
         Ok(Claim { world, rel: clause.rel, branches, premises, solve, small, lhs_text, rhs_text, condition })
@@ -123,7 +130,7 @@ impl Source<'_> {
             self.add_text(world, text, &mut pairs)?;
         }
         for reference in entry.list(|a| &a.given) {
-            self.add_equation(world, &reference.value, &mut pairs)?;
+            self.add_equation(world, reference, &mut pairs)?;
         }
         for text in &entry.scope.assume {
             self.add_text(world, text, &mut pairs)?;
@@ -137,19 +144,25 @@ impl Source<'_> {
         text: &Spanned<String>,
         pairs: &mut Vec<(Expr, Expr)>,
     ) -> Result<(), Obstacle> {
-        let obstacle = |message: String| Obstacle::Premise(text.value.clone(), message);
-        let tree = Formula::new(&text.value).tree.map_err(|e| obstacle(e.message))?;
-        let statement = semantics::statement(&tree, None).map_err(|e| obstacle(e.message))?;
+        let tree = Formula::new(&text.value).tree.map_err(|e| broken(text, &e))?;
+        let statement = semantics::statement(&tree, None).map_err(|e| unclear(text, &e))?;
         for clause in &statement.clauses {
-            self.add_clause(world, self.scope(), clause, pairs).map_err(|e| obstacle(with_help(&e)))?;
+            self.add_clause(world, self.scope(), clause, pairs).map_err(|e| unclear(text, &e))?;
         }
         Ok(())
     }
 
     /// Adds what an equation states, as corrected where it has a correction.
-    fn add_equation(&self, world: &mut World, reference: &str, pairs: &mut Vec<(Expr, Expr)>) -> Result<(), Obstacle> {
-        let obstacle = |message: String| Obstacle::Premise(format!("({reference})"), message);
-        let (index, part) = self.book.find(reference).ok_or_else(|| obstacle("there is no such equation".into()))?;
+    fn add_equation(
+        &self,
+        world: &mut World,
+        reference: &Spanned<String>,
+        pairs: &mut Vec<(Expr, Expr)>,
+    ) -> Result<(), Obstacle> {
+        let obstacle =
+            |message: String| Obstacle::Premise(format!("({})", reference.value), message, reference.span.clone());
+        let (index, part) =
+            self.book.find(&reference.value).ok_or_else(|| obstacle("there is no such equation".into()))?;
         let statement = self.book.statement(index, Version::Corrected).map_err(|u| obstacle(unclear_text(&u)))?;
         let scope = &self.book.entries[index].scope;
         // What continues an earlier chain states its last side to equal the chain's first.
@@ -195,7 +208,8 @@ impl Source<'_> {
     pub fn solved(&self) -> Result<Vec<(Clause, &Scope)>, Obstacle> {
         let mut clauses = Vec::new();
         for reference in self.book.entries[self.index].list(|a| &a.solves) {
-            let obstacle = |message: String| Obstacle::Premise(format!("({})", reference.value), message);
+            let obstacle =
+                |message: String| Obstacle::Premise(format!("({})", reference.value), message, reference.span.clone());
             let (index, part) =
                 self.book.find(&reference.value).ok_or_else(|| obstacle("there is no such equation".into()))?;
             let statement = self.book.statement(index, Version::Corrected).map_err(|u| obstacle(unclear_text(&u)))?;
@@ -216,14 +230,9 @@ impl Source<'_> {
 
     /// A symbol named in an annotation.
     fn symbol(&self, world: &mut World, text: &Spanned<String>) -> Result<Value, Obstacle> {
-        self.expression(world, &text.value)
-    }
-
-    fn expression(&self, world: &mut World, latex: &str) -> Result<Value, Obstacle> {
-        let obstacle = |message: String| Obstacle::Premise(latex.to_owned(), message);
-        let tree = Formula::new(latex).tree.map_err(|e| obstacle(e.message))?;
+        let tree = Formula::new(&text.value).tree.map_err(|e| broken(text, &e))?;
         let mut elaborator = Elaborator::new(world, self.scope(), Vec::new(), true);
-        elaborator.value(&tree).map(|t| t.value).map_err(|e| obstacle(with_help(&e)))
+        elaborator.value(&tree).map(|t| t.value).map_err(|e| unclear(text, &e))
     }
 
     fn solve(&self, world: &mut World) -> Result<Vec<SymId>, Obstacle> {
@@ -257,7 +266,8 @@ impl Source<'_> {
             _ => None,
         };
         found.map(Some).ok_or_else(|| {
-            Obstacle::Premise(text.value.clone(), "a small parameter must be a symbol or 1 divided by one".into())
+            let message = "a small parameter must be a symbol or 1 divided by one";
+            Obstacle::Premise(text.value.clone(), message.into(), text.span.clone())
         })
     }
 
@@ -265,13 +275,13 @@ impl Source<'_> {
         let Some(text) = self.book.entries[self.index].annotation().and_then(|a| a.iff.as_ref()) else {
             return Ok(None);
         };
-        let obstacle = |message: String| Obstacle::Premise(text.value.clone(), message);
-        let tree = Formula::new(&text.value).tree.map_err(|e| obstacle(e.message))?;
-        let statement = semantics::statement(&tree, None).map_err(|e| obstacle(e.message))?;
+        let obstacle = |message: String| Obstacle::Premise(text.value.clone(), message, text.span.clone());
+        let tree = Formula::new(&text.value).tree.map_err(|e| broken(text, &e))?;
+        let statement = semantics::statement(&tree, None).map_err(|e| unclear(text, &e))?;
         let [clause] = statement.clauses.as_slice() else {
             return Err(obstacle("a condition is a single relation".into()));
         };
-        let link = semantics::understand(world, self.scope(), clause, true).map_err(|e| obstacle(with_help(&e)))?;
+        let link = semantics::understand(world, self.scope(), clause, true).map_err(|e| unclear(text, &e))?;
         match link.pairs().as_slice() {
             [(_, a, b)] => Ok(Some((clause.rel, *a, *b))),
             _ => Err(obstacle("a condition relates two scalars".into())),
@@ -294,23 +304,35 @@ impl Source<'_> {
     /// The image of the left side under the map that an arrow stands for, as the right side to be.
     pub fn mapped(&self, clause: &Clause) -> Option<Result<Clause, Obstacle>> {
         let text = self.book.entries[self.index].annotation().and_then(|a| a.maps.as_ref())?;
-        let obstacle = |message: &str| Obstacle::Premise(text.value.clone(), message.to_owned());
         Some(match Formula::new(&text.value).tree {
-            Err(e) => Err(obstacle(&e.message)),
+            Err(e) => Err(broken(text, &e)),
             Ok(tree) => match &tree.kind {
                 ast::Kind::Chain { first: Some(variable), links } if links.len() == 1 && links[0].rel == Rel::To => {
                     let image = replaced(&links[0].rhs, variable, &clause.lhs);
                     Ok(Clause { lhs: image, rel: Rel::Eq, ..clause.clone() })
                 }
-                _ => Err(obstacle("a map is written as X \\mapsto ...")),
+                _ => {
+                    let message = "a map is written as X \\mapsto ...";
+                    Err(Obstacle::Premise(text.value.clone(), message.into(), text.span.clone()))
+                }
             },
         })
     }
 }
 
+/// LaTeX in an annotation that cannot be read.
+fn broken(text: &Spanned<String>, error: &ParseError) -> Obstacle {
+    Obstacle::Premise(text.value.clone(), error.message.clone(), text.place(error.span.clone()))
+}
+
+/// LaTeX in an annotation that cannot be understood.
+fn unclear(text: &Spanned<String>, error: &Error) -> Obstacle {
+    Obstacle::Premise(text.value.clone(), with_help(error), text.place(error.span.clone()))
+}
+
 fn with_help(error: &Error) -> String {
     match &error.help {
-        Some(help) => format!("{}: {help}", error.message),
+        Some(help) => format!("{} ({help})", error.message),
         None => error.message.clone(),
     }
 }
@@ -320,14 +342,15 @@ pub fn unclear_text(unclear: &Unclear) -> String {
     match unclear {
         Unclear::Latex(e) => e.message.clone(),
         Unclear::Meaning(e) => with_help(e),
+        Unclear::Before(label, message) => format!("it continues ({label}), which cannot be understood: {message}"),
     }
 }
 
 /// Why a claim could not be made, in words.
 pub fn obstacle_text(obstacle: &Obstacle) -> String {
     match obstacle {
-        Obstacle::Link(error) => error.message.clone(),
-        Obstacle::Premise(name, message) => format!("the premise {name} cannot be used: {message}"),
+        Obstacle::Link(error) => with_help(error),
+        Obstacle::Premise(name, message, _) => format!("the premise {name} cannot be used: {message}"),
     }
 }
 

@@ -3,13 +3,15 @@
 use std::collections::HashSet;
 use std::time::Instant;
 
+use crate::document::Problem;
 use crate::latex::ast::{Kind, Node, Rel};
 use crate::semantics::{Clause, ErrorKind, Scope, Side};
 
-use super::book::{Book, Formula, Unclear, Version};
-use super::claim::{Claim, Obstacle, Source, obstacle_text};
+use super::book::{Book, Entry, Formula, Unclear, Version};
+use super::claim::{Claim, Obstacle, Source, obstacle_text, unclear_text};
 use super::decide;
 use super::order;
+use super::trouble;
 use super::verdict::{Correction, Judgement, LinkJudgement, Strength, Verdict};
 
 /// What the checker is asked for.
@@ -38,11 +40,16 @@ pub fn judge(book: &Book, index: usize, options: &Options) -> Judgement {
     judgement.verdict = outcome.verdict;
     judgement.reason = outcome.reason;
     judgement.links = outcome.links;
+    judgement.problem = outcome.problem;
     judgement.summarise();
     if let Some(correction) = &entry.correction {
         let outcome = judge_version(book, index, Version::Corrected, options);
-        judgement.correction =
-            Some(Correction { latex: correction.latex.clone(), verdict: outcome.verdict, links: outcome.links });
+        judgement.correction = Some(Correction {
+            latex: correction.latex.clone(),
+            verdict: outcome.verdict,
+            links: outcome.links,
+            problem: outcome.problem,
+        });
     }
     judgement.as_expected = as_expected(&judgement);
     judgement.micros = u64::try_from(begin.elapsed().as_micros()).unwrap_or(u64::MAX);
@@ -77,6 +84,7 @@ pub fn blank(book: &Book, index: usize) -> Judgement {
         expect: annotation.and_then(|a| a.expect.as_ref()).and_then(|e| expected(&e.value)),
         as_expected: false,
         micros: 0,
+        problem: None,
     }
 }
 
@@ -108,34 +116,40 @@ struct Outcome {
     verdict: Verdict,
     reason: Option<String>,
     links: Vec<LinkJudgement>,
+    problem: Option<Problem>,
 }
 
 impl Outcome {
-    fn without_links(verdict: Verdict, reason: String) -> Self {
-        Outcome { verdict, reason: Some(reason), links: Vec::new() }
+    fn of(links: Vec<LinkJudgement>) -> Self {
+        Outcome { verdict: worst(&links), reason: None, links, problem: None }
+    }
+
+    fn without_links(verdict: Verdict, reason: String, problem: Option<Problem>) -> Self {
+        Outcome { verdict, reason: Some(reason), links: Vec::new(), problem }
     }
 }
 
 fn judge_version(book: &Book, index: usize, version: Version, options: &Options) -> Outcome {
     let entry = &book.entries[index];
     if let Some(circle) = book.circle(index) {
-        return Outcome::without_links(
-            Verdict::Undecided,
-            format!("the premises go in a circle: {}", circle.join(" → ")),
-        );
+        // The document's own problems say where.
+        let reason = format!("the premises go in a circle: {}", circle.join(" → "));
+        return Outcome::without_links(Verdict::Undecided, reason, None);
     }
     let statement = match book.statement(index, version) {
         Ok(statement) => statement,
-        Err(Unclear::Latex(e)) => {
-            return Outcome::without_links(
-                Verdict::Unreadable,
-                place(&entry.formula(version).latex, &e.message, &e.span, e.help.as_deref()),
-            );
+        Err(unclear) => {
+            let latex = &entry.formula(version).latex;
+            let (verdict, reason) = match &unclear {
+                Unclear::Latex(e) => (Verdict::Unreadable, place(latex, &e.message, &e.span, e.help.as_deref())),
+                Unclear::Meaning(e) => (Verdict::Undecided, place(latex, &e.message, &e.span, e.help.as_deref())),
+                Unclear::Before(..) => (Verdict::Undecided, unclear_text(&unclear)),
+            };
+            return Outcome::without_links(verdict, reason, Some(trouble::unclear(entry, version, &unclear)));
         }
-        Err(Unclear::Meaning(e)) => return Outcome::without_links(Verdict::Undecided, e.message),
     };
     if statement.clauses.is_empty() {
-        return nothing_to_evaluate(book, index);
+        return nothing_to_evaluate(entry, version);
     }
     let source = Source { book, index, version };
     if !entry.list(|a| &a.solves).is_empty() {
@@ -151,22 +165,24 @@ fn judge_version(book: &Book, index: usize, version: Version, options: &Options)
             });
             known.push(clause.clone());
         } else {
-            links.push(judge_link(&source, clause, &entry.scope, &known, &entry.formula(version).latex, options));
+            links.push(judge_link(&source, clause, &entry.scope, &known, options));
         }
     }
-    Outcome { verdict: worst(&links), reason: None, links }
+    Outcome::of(links)
 }
 
 /// An equation without a relation: a statement, if the annotation says so and why.
-fn nothing_to_evaluate(book: &Book, index: usize) -> Outcome {
-    let annotation = book.entries[index].annotation();
+fn nothing_to_evaluate(entry: &Entry, version: Version) -> Outcome {
+    let annotation = entry.annotation();
     let is_statement = annotation.and_then(|a| a.kind.as_ref()).is_some_and(|k| k.value == "statement");
     match annotation.and_then(|a| a.because.clone()) {
-        Some(because) if is_statement => Outcome::without_links(Verdict::Statement, because),
-        _ => Outcome::without_links(
-            Verdict::Undecided,
-            "there is no relation to evaluate; if that is right, say kind = \"statement\" and because = \"...\"".into(),
-        ),
+        Some(because) if is_statement => Outcome::without_links(Verdict::Statement, because, None),
+        _ => {
+            let reason =
+                "there is no relation to evaluate; if that is right, say kind = \"statement\" and because = \"...\"";
+            let problem = trouble::equation(entry, version, reason);
+            Outcome::without_links(Verdict::Undecided, reason.into(), Some(problem))
+        }
     }
 }
 
@@ -174,18 +190,21 @@ fn nothing_to_evaluate(book: &Book, index: usize) -> Outcome {
 fn judge_solution(source: &Source, clauses: &[Clause], options: &Options) -> Outcome {
     let solved = match source.solved() {
         Ok(solved) => solved,
-        Err(obstacle) => return Outcome::without_links(Verdict::Undecided, obstacle_text(&obstacle)),
+        Err(obstacle) => {
+            let entry = &source.book.entries[source.index];
+            let problem = clauses.first().map(|c| trouble::obstacle(entry, source.version, c, true, &obstacle));
+            return Outcome::without_links(Verdict::Undecided, obstacle_text(&obstacle), problem);
+        }
     };
-    let latex = &source.book.entries[source.index].formula(source.version).latex;
     let links: Vec<LinkJudgement> = solved
         .iter()
         .map(|(clause, scope)| {
-            let mut link = judge_link(source, clause, scope, clauses, latex, options);
+            let mut link = judge_link(source, clause, scope, clauses, options);
             link.reason = link.reason.or(Some("with the solution put in".into()));
             link
         })
         .collect();
-    Outcome { verdict: worst(&links), reason: None, links }
+    Outcome::of(links)
 }
 
 fn worst(links: &[LinkJudgement]) -> Verdict {
@@ -248,17 +267,24 @@ fn unjudged(clause: &Clause) -> LinkJudgement {
         failing_states: 0,
         counterexample: None,
         order: None,
+        problem: None,
     }
 }
 
-fn judge_link(
-    source: &Source,
-    clause: &Clause,
-    scope: &Scope,
-    known: &[Clause],
-    latex: &str,
-    options: &Options,
-) -> LinkJudgement {
+/// Judges a link, and says where in the file that lies which it lacks.
+fn judge_link(source: &Source, clause: &Clause, scope: &Scope, known: &[Clause], options: &Options) -> LinkJudgement {
+    let mut judgement = link_verdict(source, clause, scope, known, options);
+    if let (Verdict::Undecided, None, Some(reason)) = (judgement.verdict, &judgement.problem, &judgement.reason) {
+        let entry = &source.book.entries[source.index];
+        judgement.problem = Some(match entry.list(|a| &a.solves).is_empty() {
+            true => trouble::link(entry, source.version, clause, reason),
+            false => trouble::equation(entry, source.version, reason),
+        });
+    }
+    judgement
+}
+
+fn link_verdict(source: &Source, clause: &Clause, scope: &Scope, known: &[Clause], options: &Options) -> LinkJudgement {
     let mut judgement = unjudged(clause);
     let mapped = match clause.rel {
         Rel::To => match source.mapped(clause) {
@@ -267,17 +293,17 @@ fn judge_link(
                     Some("an arrow needs to be told what map it stands for: maps = 'X \\mapsto ...'".into());
                 return judgement;
             }
-            Some(Err(obstacle)) => return obstructed(judgement, &obstacle, latex),
+            Some(Err(obstacle)) => return obstructed(judgement, source, clause, &obstacle),
             Some(Ok(clause)) => clause,
         },
         Rel::Eq | Rel::Equiv | Rel::Implies | Rel::Lt | Rel::Le | Rel::Gt | Rel::Ge => clause.clone(),
         _ => {
-            judgement.reason = Some("this relation is not evaluated yet".into());
+            judgement.reason = Some("relations of this kind are not evaluated yet".into());
             return judgement;
         }
     };
     match source.claim(&mapped, scope, known) {
-        Err(obstacle) => obstructed(judgement, &obstacle, latex),
+        Err(obstacle) => obstructed(judgement, source, clause, &obstacle),
         Ok(claim) => evaluate(judgement, claim, source, options),
     }
 }
@@ -295,11 +321,19 @@ fn evaluate(judgement: LinkJudgement, claim: Claim, source: &Source, options: &O
 }
 
 /// A link that could not be claimed: shapes that do not meet are the author's and final; the rest is lacking.
-fn obstructed(mut judgement: LinkJudgement, obstacle: &Obstacle, latex: &str) -> LinkJudgement {
+fn obstructed(mut judgement: LinkJudgement, source: &Source, clause: &Clause, obstacle: &Obstacle) -> LinkJudgement {
+    let entry = &source.book.entries[source.index];
+    // The links of an equation that is solved are printed elsewhere.
+    let foreign = !entry.list(|a| &a.solves).is_empty();
+    let problem = trouble::obstacle(entry, source.version, clause, foreign, obstacle);
     judgement.reason = Some(match obstacle {
-        Obstacle::Link(error) => place(latex, &error.message, &error.span, error.help.as_deref()),
+        Obstacle::Link(error) if !foreign && !trouble::is_inherited(clause, &error.span) => {
+            place(&entry.formula(source.version).latex, &error.message, &error.span, error.help.as_deref())
+        }
+        Obstacle::Link(error) => place("", &problem.message, &error.span, error.help.as_deref()),
         Obstacle::Premise(..) => obstacle_text(obstacle),
     });
+    judgement.problem = Some(problem);
     if let Obstacle::Link(error) = obstacle
         && error.kind == ErrorKind::Shape
     {

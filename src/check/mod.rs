@@ -13,6 +13,7 @@ mod random;
 mod sampling;
 mod shrink;
 mod system;
+mod trouble;
 pub mod verdict;
 
 pub use book::{Book, Entry, Formula, Unclear, Version};

@@ -141,10 +141,11 @@ impl Premises {
         self.residuals.extend(derivatives.into_iter().zip(kept).filter(|(_, k)| *k).map(|(d, _)| d));
     }
 
-    /// Keeps only the residuals that have to do with `targets`: those that share symbols with them, directly or by
-    /// other residuals.
-    pub fn keep_related(&mut self, graph: &Graph, targets: &[Expr]) {
-        let mut reached = graph.symbols(targets);
+    /// Keeps only the residuals that have to do with `targets` or the symbols `mentioned`: those that share symbols with
+    /// them, directly or by other residuals.
+    pub fn keep_related(&mut self, graph: &Graph, targets: &[Expr], mentioned: BTreeSet<SymId>) {
+        let mut reached = mentioned;
+        reached.extend(graph.symbols(targets));
         let symbols: Vec<BTreeSet<SymId>> = self.residuals.iter().map(|r| graph.symbols(&[*r])).collect();
         let mut kept = vec![false; self.residuals.len()];
         loop {

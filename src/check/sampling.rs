@@ -205,7 +205,7 @@ fn hints(claim: &Claim, system: &System) -> Vec<(usize, Tape)> {
 /// Why no state was found, in words.
 pub fn no_state_text(reason: &NoState) -> String {
     match reason {
-        NoState::Unsolvable => "the premises have no solution at the sampled states; check them, and the ranges of the symbols",
+        NoState::Unsolvable => "no state was found at which all premises hold: they contradict each other, or have no solution in the ranges of the symbols",
         NoState::Diverges => "no state was found at which the premises hold and both sides are numbers; check the premises, and the ranges of the symbols",
         NoState::Contradiction => "the premises contradict each other at the sampled states",
     }

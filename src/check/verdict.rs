@@ -2,6 +2,8 @@
 
 use serde::Serialize;
 
+use crate::document::Problem;
+
 /// The verdict on a link or an equation, from best to worst.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
 #[serde(rename_all = "lowercase")]
@@ -96,6 +98,9 @@ pub struct LinkJudgement {
     pub counterexample: Option<Counterexample>,
     /// For an approximation.
     pub order: Option<Order>,
+    /// What stands in the way of a verdict, with its place in the file.
+    #[serde(skip)]
+    pub problem: Option<Problem>,
 }
 
 /// The formula that should have been printed, with the judgement on it.
@@ -107,6 +112,9 @@ pub struct Correction {
     pub verdict: Verdict,
     /// Its links.
     pub links: Vec<LinkJudgement>,
+    /// What stands in the way of a verdict, where no link says it.
+    #[serde(skip)]
+    pub problem: Option<Problem>,
 }
 
 /// The judgement on one equation.
@@ -156,9 +164,27 @@ pub struct Judgement {
     pub as_expected: bool,
     /// The time it took, in microseconds.
     pub micros: u64,
+    /// What stands in the way of a verdict, with its place in the file, where no link says it.
+    #[serde(skip)]
+    pub problem: Option<Problem>,
 }
 
 impl Judgement {
+    /// What stands in the way of a verdict on the equation, its links and its correction, each problem once.
+    pub fn problems(&self) -> Vec<&Problem> {
+        let links = self.links.iter().filter_map(|link| link.problem.as_ref());
+        let correction = self.correction.iter();
+        let corrected =
+            correction.flat_map(|c| c.problem.iter().chain(c.links.iter().filter_map(|l| l.problem.as_ref())));
+        let mut problems: Vec<&Problem> = Vec::new();
+        for problem in self.problem.iter().chain(links).chain(corrected) {
+            if !problems.iter().any(|p| p.span == problem.span && p.message == problem.message) {
+                problems.push(problem);
+            }
+        }
+        problems
+    }
+
     /// A failing equation whose correction holds.
     pub fn is_erratum(&self) -> bool {
         self.verdict == Verdict::Fails

@@ -32,7 +32,7 @@ pub enum ReadError {
         source: std::io::Error,
     },
     /// The file is not encoded in UTF-8.
-    #[error("`{}` is not UTF-8: line {line} has an invalid byte (byte {offset} of the file, counted from 0)", path.display())]
+    #[error("{}:{line}:{column}: the file is not UTF-8: this byte cannot stand here", path.display())]
     #[diagnostic(
         code(document::not_utf8),
         help("save it as UTF-8, or convert it: `iconv -f SHIFT_JIS -t UTF-8 OLD > NEW` (with the encoding it has)")
@@ -42,8 +42,8 @@ pub enum ReadError {
         path: PathBuf,
         /// The line of the first invalid byte, counted from 1.
         line: usize,
-        /// The offset of the first invalid byte, counted from 0.
-        offset: usize,
+        /// Its column in characters, counted from 1.
+        column: usize,
     },
     /// The file holds nothing but blanks.
     #[error("`{}` is empty", path.display())]
@@ -76,8 +76,11 @@ pub fn read(path: &Path) -> Result<Document, ReadError> {
     let bytes = std::fs::read(path).map_err(|error| not_read(path, error))?;
     let source = String::from_utf8(bytes).map_err(|error| {
         let offset = error.utf8_error().valid_up_to();
-        let line = error.as_bytes().iter().take(offset).filter(|byte| **byte == b'\n').count() + 1;
-        ReadError::NotUtf8 { path: path.to_owned(), line, offset }
+        // What stands before the offset is valid.
+        let before = String::from_utf8_lossy(error.as_bytes().get(..offset).unwrap_or_default());
+        let line = before.matches('\n').count() + 1;
+        let column = before.rsplit('\n').next().map_or(0, |rest| rest.chars().count()) + 1;
+        ReadError::NotUtf8 { path: path.to_owned(), line, column }
     })?;
     if source.trim_matches(|c: char| c.is_whitespace() || c == '\u{feff}').is_empty() {
         return Err(ReadError::Empty { path: path.to_owned() });

@@ -18,6 +18,7 @@ pub(super) fn link(latex: &str, verdict: Verdict) -> LinkJudgement {
         failing_states: 0,
         counterexample: None,
         order: None,
+        problem: None,
     }
 }
 
@@ -57,6 +58,7 @@ pub(super) fn judgement(label: &str, kind: &str, link: LinkJudgement) -> Judgeme
         expect: None,
         as_expected: true,
         micros: 118,
+        problem: None,
     }
 }
 

@@ -15,8 +15,13 @@ pub fn render(run: &Run, colour: bool, options: Options) -> String {
         let _ = summarize(&mut text, document, paint);
     }
     let counts = Counts::of(run.documents.iter().flat_map(|d| &d.equations));
+    let problems = match run.documents.iter().map(|d| d.problems.len()).sum::<usize>() {
+        0 => String::new(),
+        1 => paint.verdict(Verdict::Fails, ", but the notes have 1 problem"),
+        n => paint.verdict(Verdict::Fails, &format!(", but the notes have {n} problems")),
+    };
     let unexpected = match counts.unexpected {
-        0 => paint.verdict(Verdict::Holds, "all as expected"),
+        0 => paint.verdict(Verdict::Holds, "all as expected") + &problems,
         n => paint.verdict(Verdict::Fails, &format!("{n} not as expected")),
     };
     let time = if options.times { format!(" in {}", duration(run.micros)) } else { String::new() };
@@ -32,7 +37,7 @@ fn summarize(text: &mut String, document: &DocumentReport, paint: Paint) -> std:
         counts::ORDER.into_iter().filter(|v| counts.with(*v) > 0).map(|v| share(counts, v, paint)).collect();
     writeln!(text, "  {}", if shares.is_empty() { "no displayed equations".to_owned() } else { shares.join("   ") })?;
     for problem in &document.problems {
-        writeln!(text, "  {} {}: {problem}", paint.verdict(Verdict::Unreadable, "!"), document.path)?;
+        writeln!(text, "  {} {}", paint.verdict(Verdict::Unreadable, "!"), one_line(problem))?;
     }
     for judgement in document.equations.iter().filter(|j| is_shown(j)) {
         line(text, document, judgement, paint)?;
@@ -57,7 +62,9 @@ fn is_shown(j: &Judgement) -> bool {
 fn line(text: &mut String, document: &DocumentReport, j: &Judgement, paint: Paint) -> std::fmt::Result {
     let mark = paint.verdict(j.verdict, &format!("{} ({})", symbol(j.verdict), j.label));
     write!(text, "  {mark} {}:{} {}", document.path, j.line, word(j.verdict))?;
-    if let (false, Some(expected)) = (j.as_expected, j.expect) {
+    if j.expect == Some(j.verdict) && !j.as_expected {
+        write!(text, ", as expected, but its correction {}", j.correction.as_ref().map_or("", |c| phrase(c.verdict)))?;
+    } else if let (false, Some(expected)) = (j.as_expected, j.expect) {
         write!(text, ", though it is expected that it {}", phrase(expected))?;
     } else if j.expect == Some(j.verdict) {
         write!(text, ", as expected")?;

@@ -269,7 +269,7 @@ impl Builder {
 
     /// The printed formula and its correction with what differs marked.
     fn correction(&self, j: &Judgement, plain: &str) -> (String, Option<CorrectionView>) {
-        let Some(Correction { latex, verdict, links }) = &j.correction else { return (plain.to_owned(), None) };
+        let Some(Correction { latex, verdict, links, .. }) = &j.correction else { return (plain.to_owned(), None) };
         // A reading stands for the printed formula; the correction is compared with what was judged.
         let judged = j.reading.as_ref().unwrap_or(&j.latex);
         let marks = diff::mark(judged, latex)

@@ -87,7 +87,8 @@ pub fn nearest<'a>(name: &str, candidates: impl Iterator<Item = &'a str>) -> Opt
     let wanted = plain(name);
     candidates
         .map(|c| (distance(&wanted, &plain(c)), c))
-        .filter(|(d, c)| *d <= 1 + c.chars().count() / 4)
+        // A name that shares no letter with the other is no slip of the pen: q for a.
+        .filter(|(d, c)| *d <= 1 + c.chars().count() / 4 && *d < plain(c).chars().count().max(wanted.chars().count()))
         .min_by_key(|(d, _)| *d)
         .map(|(_, c)| c)
 }

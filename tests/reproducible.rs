@@ -1,0 +1,43 @@
+//! The same seed gives the same bytes, on any number of threads; another seed does not.
+#![allow(missing_docs)]
+
+use std::path::Path;
+use std::time::Instant;
+
+use kenzan::check::Options;
+use kenzan::report::{self, html, json};
+use kenzan::verify::{self, Request};
+
+/// The page and the data of a run on the bundled notes, without times.
+fn reports(seed: u64, threads: usize) -> (String, String) {
+    let notes = Path::new(env!("CARGO_MANIFEST_DIR")).join("notes/gyroscope.md");
+    let options = Options { seed, states: 8, ..Options::default() };
+    let request = Request { paths: vec![notes], options, only: Vec::new() };
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).stack_size(32 << 20).build().unwrap();
+    pool.install(|| {
+        let documents = verify::documents(&request.paths).unwrap();
+        let verified: Vec<_> = documents.into_iter().map(|d| verify::verify(d, &request, &|| ())).collect();
+        let run = verify::run(&verified, &request, Instant::now());
+        let without_times = report::Options { times: false };
+        (html::render(&run, without_times).unwrap(), json::render(&run, without_times).unwrap())
+    })
+}
+
+/// Both texts from the first line in which they differ, for a message that can be read.
+fn assert_same(name: &str, a: &str, b: &str) {
+    if let Some((k, (a, b))) = a.lines().zip(b.lines()).enumerate().find(|(_, (a, b))| a != b) {
+        panic!("{name} differs in line {}:\n{a:.400}\n{b:.400}", k + 1);
+    }
+    assert_eq!(a.len(), b.len(), "{name} has another length");
+}
+
+#[test]
+fn the_same_seed_gives_the_same_bytes_on_any_number_of_threads() {
+    let (page, data) = reports(7, 1);
+    for threads in [1, 2] {
+        let (again, data_again) = reports(7, threads);
+        assert_same("report.html", &page, &again);
+        assert_same("report.json", &data, &data_again);
+    }
+    assert!(reports(8, 1).1 != data, "another seed draws other states");
+}
