@@ -239,6 +239,8 @@ fn unjudged(clause: &Clause) -> LinkJudgement {
         failing_states: 0,
         counterexample: None,
         order: None,
+        exact: None,
+        inexact: None,
     }
 }
 
@@ -343,7 +345,7 @@ impl Judgement {
         self.states = self.links.iter().map(|l| l.states).max().unwrap_or(0);
         self.counterexample = self.links.iter().find_map(|l| l.counterexample.clone());
         let decisive = self.links.iter().filter(|l| l.verdict == self.verdict);
-        self.strength = decisive.filter_map(|l| l.strength).next();
+        self.strength = decisive.filter_map(|l| l.strength).max_by_key(|s| s.weakness());
         if self.links.iter().all(|l| l.verdict == Verdict::Definition) && !self.links.is_empty() {
             self.kind = "definition".into();
         }

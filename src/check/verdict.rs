@@ -2,6 +2,8 @@
 
 use serde::Serialize;
 
+use super::exact::Exact;
+
 /// The verdict on a link or an equation, from best to worst.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
 #[serde(rename_all = "lowercase")]
@@ -36,6 +38,19 @@ pub enum Strength {
     Asymptotic,
     /// The shapes of the sides do not meet (a vector and a scalar are added): there is no state to evaluate at.
     Shape,
+}
+
+impl Strength {
+    /// The place in the order from the strongest to the weakest.
+    pub fn weakness(self) -> usize {
+        match self {
+            Strength::Exact => 0,
+            Strength::Shape => 1,
+            Strength::Certified => 2,
+            Strength::Numeric => 3,
+            Strength::Asymptotic => 4,
+        }
+    }
 }
 
 /// A symbol's value in a counterexample.
@@ -96,6 +111,10 @@ pub struct LinkJudgement {
     pub counterexample: Option<Counterexample>,
     /// For an approximation.
     pub order: Option<Order>,
+    /// For an exact verdict.
+    pub exact: Option<Exact>,
+    /// Why an equality that holds has no exact verdict.
+    pub inexact: Option<String>,
 }
 
 /// The formula that should have been printed, with the judgement on it.

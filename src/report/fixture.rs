@@ -18,6 +18,8 @@ pub(super) fn link(latex: &str, verdict: Verdict) -> LinkJudgement {
         failing_states: 0,
         counterexample: None,
         order: None,
+        exact: None,
+        inexact: None,
     }
 }
 
