@@ -7,11 +7,12 @@
 
 use std::collections::BTreeMap;
 
-use crate::expr::Workspace;
+use crate::expr::{SymId, Workspace};
 use crate::latex::ast::Rel;
 use crate::number::{Df64, Number, Real};
 
 use super::claim::Claim;
+use super::exact;
 use super::judge::Options;
 use super::random::Random;
 use super::sampling::{PairValue, Sampler, no_state_text};
@@ -64,31 +65,59 @@ struct Tally {
     branch_hit: Vec<bool>,
 }
 
-/// Judges an equality.
+/// Judges an equality: by values, and where these agree, in the prime field.
 pub fn equality(judgement: LinkJudgement, mut claim: Claim, name: &str, options: &Options) -> LinkJudgement {
+    let (mut judgement, unknowns) = by_values(judgement, &mut claim, name, options);
+    if judgement.verdict == Verdict::Holds {
+        match exact::test(&mut claim, &unknowns, &mut Random::new(options.seed, name)) {
+            Ok(exact) => {
+                judgement.strength = Some(Strength::Exact);
+                judgement.exact = Some(exact);
+            }
+            Err(why) => judgement.inexact = Some(why.to_string()),
+        }
+    }
+    judgement
+}
+
+/// The judgement by values at random states, and the symbols that the premises were solved for.
+fn by_values(
+    judgement: LinkJudgement,
+    claim: &mut Claim,
+    name: &str,
+    options: &Options,
+) -> (LinkJudgement, Vec<SymId>) {
     let mut random = Random::new(options.seed, name);
-    let sampler = match Sampler::new(&mut claim, &mut random, &[]) {
+    let sampler = match Sampler::new(claim, &mut random, &[]) {
         Ok(sampler) => sampler,
-        Err(e) => return LinkJudgement { reason: Some(no_state_text(&e)), ..judgement },
+        Err(e) => return (LinkJudgement { reason: Some(no_state_text(&e)), ..judgement }, Vec::new()),
     };
+    let unknowns = sampler.system.unknowns.iter().map(|u| u.symbol).collect();
     let states = match sampler.states(options.states, &mut random, &BTreeMap::new()) {
         Ok(states) => states,
-        Err(e) => return LinkJudgement { reason: Some(no_state_text(&e)), ..judgement },
+        Err(e) => return (LinkJudgement { reason: Some(no_state_text(&e)), ..judgement }, unknowns),
     };
+    (refined(judgement, &sampler, &states, options), unknowns)
+}
+
+/// Decides in double-double, and in higher precision where that is not enough.
+fn refined(judgement: LinkJudgement, sampler: &Sampler, states: &[State], options: &Options) -> LinkJudgement {
     #[cfg(feature = "rug")]
     {
         use crate::number::Mpfr;
         if let Some(bits) = options.precision {
-            return decide::<Mpfr>(judgement, &sampler, &states, &bits);
+            return decide::<Mpfr>(judgement, sampler, states, &bits);
         }
-        let first = decide::<Df64>(judgement.clone(), &sampler, &states, &());
+        let first = decide::<Df64>(judgement.clone(), sampler, states, &());
         if first.verdict == Verdict::Undecided {
-            return decide::<Mpfr>(judgement, &sampler, &states, &256);
+            return decide::<Mpfr>(judgement, sampler, states, &256);
         }
         first
     }
     #[cfg(not(feature = "rug"))]
-    decide::<Df64>(judgement, &sampler, &states, &())
+    let _ = options;
+    #[cfg(not(feature = "rug"))]
+    decide::<Df64>(judgement, sampler, states, &())
 }
 
 fn decide<N: Real>(

@@ -161,7 +161,7 @@ fn judge_version(book: &Book, index: usize, version: Version, options: &Options)
         if defines(book, index, clause) {
             links.push(match source.claim(clause, &entry.scope, &known) {
                 Ok(_) => definition(clause),
-                Err(obstacle) => obstructed(unjudged(clause), &obstacle, &entry.formula(version).latex),
+                Err(obstacle) => obstructed(unjudged(clause), &source, clause, &obstacle),
             });
             known.push(clause.clone());
         } else {
@@ -268,6 +268,8 @@ fn unjudged(clause: &Clause) -> LinkJudgement {
         counterexample: None,
         order: None,
         problem: None,
+        exact: None,
+        inexact: None,
     }
 }
 
@@ -386,7 +388,7 @@ impl Judgement {
         self.states = self.links.iter().map(|l| l.states).max().unwrap_or(0);
         self.counterexample = self.links.iter().find_map(|l| l.counterexample.clone());
         let decisive = self.links.iter().filter(|l| l.verdict == self.verdict);
-        self.strength = decisive.filter_map(|l| l.strength).next();
+        self.strength = decisive.filter_map(|l| l.strength).max_by_key(|s| s.weakness());
         if self.links.iter().all(|l| l.verdict == Verdict::Definition) && !self.links.is_empty() {
             self.kind = "definition".into();
         }

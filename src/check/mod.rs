@@ -4,6 +4,8 @@ mod book;
 mod choice;
 mod claim;
 mod decide;
+mod elimination;
+pub mod exact;
 pub mod inspect;
 mod judge;
 mod newton;

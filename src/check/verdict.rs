@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use crate::document::Problem;
+use super::exact::Exact;
 
 /// The verdict on a link or an equation, from best to worst.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
@@ -38,6 +39,19 @@ pub enum Strength {
     Asymptotic,
     /// The shapes of the sides do not meet (a vector and a scalar are added): there is no state to evaluate at.
     Shape,
+}
+
+impl Strength {
+    /// The place in the order from the strongest to the weakest.
+    pub fn weakness(self) -> usize {
+        match self {
+            Strength::Exact => 0,
+            Strength::Shape => 1,
+            Strength::Certified => 2,
+            Strength::Numeric => 3,
+            Strength::Asymptotic => 4,
+        }
+    }
 }
 
 /// A symbol's value in a counterexample.
@@ -101,6 +115,10 @@ pub struct LinkJudgement {
     /// What stands in the way of a verdict, with its place in the file.
     #[serde(skip)]
     pub problem: Option<Problem>,
+    /// For an exact verdict.
+    pub exact: Option<Exact>,
+    /// Why an equality that holds has no exact verdict.
+    pub inexact: Option<String>,
 }
 
 /// The formula that should have been printed, with the judgement on it.

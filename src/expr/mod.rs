@@ -2,6 +2,7 @@
 
 pub mod diff;
 mod display;
+pub mod field;
 pub mod graph;
 mod magnitude;
 mod ratio;

@@ -19,6 +19,8 @@ pub(super) fn link(latex: &str, verdict: Verdict) -> LinkJudgement {
         counterexample: None,
         order: None,
         problem: None,
+        exact: None,
+        inexact: None,
     }
 }
 
