@@ -4,7 +4,7 @@ use std::collections::HashSet;
 use std::time::Instant;
 
 use crate::latex::ast::{Kind, Node, Rel};
-use crate::semantics::{Clause, ErrorKind, Scope, Side};
+use crate::semantics::{Clause, ErrorKind, Scope, Side, Statement};
 
 use super::book::{Book, Formula, Unclear, Version};
 use super::claim::{Claim, Obstacle, Source, obstacle_text};
@@ -76,6 +76,8 @@ pub fn blank(book: &Book, index: usize) -> Judgement {
         correction: None,
         expect: annotation.and_then(|a| a.expect.as_ref()).and_then(|e| expected(&e.value)),
         as_expected: false,
+        sensitivity: None,
+        suggestions: Vec::new(),
         micros: 0,
     }
 }
@@ -104,10 +106,10 @@ fn expected(text: &str) -> Option<Verdict> {
 }
 
 /// The verdict on one version of an equation.
-struct Outcome {
-    verdict: Verdict,
-    reason: Option<String>,
-    links: Vec<LinkJudgement>,
+pub(super) struct Outcome {
+    pub verdict: Verdict,
+    pub reason: Option<String>,
+    pub links: Vec<LinkJudgement>,
 }
 
 impl Outcome {
@@ -116,7 +118,7 @@ impl Outcome {
     }
 }
 
-fn judge_version(book: &Book, index: usize, version: Version, options: &Options) -> Outcome {
+pub(super) fn judge_version(book: &Book, index: usize, version: Version, options: &Options) -> Outcome {
     let entry = &book.entries[index];
     if let Some(circle) = book.circle(index) {
         return Outcome::without_links(
@@ -134,12 +136,18 @@ fn judge_version(book: &Book, index: usize, version: Version, options: &Options)
         }
         Err(Unclear::Meaning(e)) => return Outcome::without_links(Verdict::Undecided, e.message),
     };
+    judge_statement(&Source { book, index, version }, &statement, options)
+}
+
+/// Judges what an equation states, in the words of any version of it.
+pub(super) fn judge_statement(source: &Source, statement: &Statement, options: &Options) -> Outcome {
+    let (book, index, version) = (source.book, source.index, source.version);
+    let entry = &book.entries[index];
     if statement.clauses.is_empty() {
         return nothing_to_evaluate(book, index);
     }
-    let source = Source { book, index, version };
     if !entry.list(|a| &a.solves).is_empty() {
-        return judge_solution(&source, &statement.clauses, options);
+        return judge_solution(source, &statement.clauses, options);
     }
     let mut known: Vec<Clause> = Vec::new();
     let mut links = Vec::new();
@@ -148,7 +156,7 @@ fn judge_version(book: &Book, index: usize, version: Version, options: &Options)
             links.push(definition(clause));
             known.push(clause.clone());
         } else {
-            links.push(judge_link(&source, clause, &entry.scope, &known, &entry.formula(version).latex, options));
+            links.push(judge_link(source, clause, &entry.scope, &known, &entry.formula(version).latex, options));
         }
     }
     Outcome { verdict: worst(&links), reason: None, links }
@@ -191,7 +199,7 @@ fn worst(links: &[LinkJudgement]) -> Verdict {
 
 /// Whether a clause introduces a symbol: one side is a declared symbol that neither an earlier equation nor a premise
 /// mentions.
-fn defines(book: &Book, index: usize, clause: &Clause) -> bool {
+pub(super) fn defines(book: &Book, index: usize, clause: &Clause) -> bool {
     if !matches!(clause.rel, Rel::Eq | Rel::Equiv) {
         return false;
     }
@@ -242,7 +250,7 @@ fn unjudged(clause: &Clause) -> LinkJudgement {
     }
 }
 
-fn judge_link(
+pub(super) fn judge_link(
     source: &Source,
     clause: &Clause,
     scope: &Scope,

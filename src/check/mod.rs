@@ -10,9 +10,12 @@ mod newton;
 mod order;
 mod premises;
 mod random;
+mod sameness;
 mod sampling;
 mod system;
+mod trial;
 pub mod verdict;
 
 pub use book::{Book, Entry, Formula, Unclear, Version};
 pub use judge::{Options, blank, judge};
+pub use trial::{Outcome, Trial};
