@@ -129,7 +129,14 @@ impl Source<'_> {
         for reference in entry.list(|a| &a.given) {
             self.add_equation(world, &reference.value, &mut pairs)?;
         }
-        for text in &entry.scope.assume {
+        pairs.extend(self.assumed(world)?);
+        Ok(pairs)
+    }
+
+    /// The pairs of equal scalars that the section's assumptions state: what symbols are defined as, for the most part.
+    pub(super) fn assumed(&self, world: &mut World) -> Result<Vec<(Expr, Expr)>, Obstacle> {
+        let mut pairs = Vec::new();
+        for text in &self.scope().assume {
             self.add_text(world, text, &mut pairs)?;
         }
         Ok(pairs)

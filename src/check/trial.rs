@@ -129,18 +129,24 @@ impl<'b> Trial<'b> {
     /// Whether a formula says the same as the original, whatever the premises are: see [`sameness`].
     pub fn is_equivalent(&self, tree: &Node) -> bool {
         let Ok(statement) = self.source.book.statement_of(self.source.index, tree) else { return false };
-        statement.clauses.len() == self.statement.clauses.len()
-            && self.changed(&statement).all(|k| {
-                let name = format!("{}/{k}", self.source.book.entries[self.source.index].equation.label);
-                let random = Random::new(self.options.seed, &name);
-                sameness::same(&self.source, &self.statement.clauses[k], &statement.clauses[k], random)
-            })
+        let (own, other) = (&self.statement.clauses, &statement.clauses);
+        self.all_same(own, other) || self.all_same(&sameness::split(own), &sameness::split(other))
+    }
+
+    fn all_same(&self, own: &[Clause], other: &[Clause]) -> bool {
+        let label = &self.source.book.entries[self.source.index].equation.label;
+        let random = Random::new(self.options.seed, label);
+        let same = |(a, b): (&Clause, &Clause)| a == b || sameness::same(&self.source, a, b, &random);
+        own.len() == other.len() && own.iter().zip(other).all(same)
     }
 
     /// The number of links that fail, of a formula with as many links as the original; `None` where it has others or
     /// makes no sense.
     pub fn failing_links(&mut self, tree: &Node) -> Option<usize> {
         let statement = self.source.book.statement_of(self.source.index, tree).ok()?;
+        if self.solution {
+            return Some(usize::from(self.in_full(&statement) != Outcome::Holds));
+        }
         if statement.clauses.len() != self.links.len() {
             return None;
         }

@@ -144,6 +144,7 @@ impl<'s> Walk<'s> {
             }
         }
         self.close_elsewhere(node, factors);
+        self.part_squares(node, factors);
         for (k, factor) in factors.iter().enumerate() {
             if !is_letter(factor, "d") {
                 self.child(k, factor);
@@ -180,6 +181,28 @@ impl<'s> Walk<'s> {
             let all: Vec<Node> = factors[..k].iter().chain([&bracket]).chain(&factors[k + 2..]).cloned().collect();
             let text = format!("the bracket closed after `{}`", to_latex(&factors[k + 1]));
             self.edit(EditKind::Bracket, juxt(&all, &node.span), &factors[k + 1].span, text);
+        }
+    }
+
+    /// A square that should be the product with another symbol; only where factors may be put in.
+    fn part_squares(&mut self, node: &Node, factors: &[Node]) {
+        if self.reach.factors.is_empty() {
+            return;
+        }
+        for (k, factor) in factors.iter().enumerate() {
+            let Kind::Scripts { sup: Some(sup), .. } = &factor.kind else { continue };
+            if !matches!(&sup.kind, Kind::Number(n) if n == "2") {
+                continue;
+            }
+            let bare = without_power(factor);
+            let Some(name) = Name::of(self.scope, &bare) else { continue };
+            for (kind, other) in siblings(self.scope, &name, self.reach.siblings) {
+                let other = name.replaced(&other, name.dots);
+                let text = format!("`{}` changed to `{} {}`", to_latex(factor), to_latex(&bare), to_latex(&other));
+                let mut parted = factors.to_vec();
+                parted.splice(k..=k, [bare.clone(), other]);
+                self.edit(kind, Node::new(Kind::Juxt(parted), node.span.clone()), &factor.span, text);
+            }
         }
     }
 

@@ -40,6 +40,12 @@ impl<'s> Name<'s> {
         (!is_index).then(|| Name { dots, bare, entry, sup, span: node.span.clone() })
     }
 
+    /// The symbol with its dots, without its power.
+    pub fn without_power(&self) -> Node {
+        let bare = Name { dots: self.dots, bare: self.bare.clone(), entry: self.entry, sup: None, span: self.span.clone() };
+        bare.replaced(&self.bare, self.dots)
+    }
+
     /// Another symbol in the place of this one, with so many dots and the same power.
     pub fn replaced(&self, other: &Node, dots: u8) -> Node {
         let mut node = placed(other, &self.span);

@@ -91,7 +91,8 @@ impl Synonyms {
         let (a, b) = (self.class(a), self.class(b));
         if a != b {
             self.first.values_mut().filter(|v| **v == b).for_each(|v| v.clone_from(&a));
-            self.first.insert(b, a);
+            self.first.insert(b, a.clone());
+            self.first.insert(a.clone(), a);
         }
     }
 
