@@ -49,6 +49,12 @@ enum Command {
         /// Judge only the equation of this label; may be repeated.
         #[arg(long, value_name = "LABEL")]
         only: Vec<String>,
+        /// Try the mutants of each equation that holds: does its check notice a wrong sign, index, factor?
+        #[arg(long)]
+        mutants: bool,
+        /// Search what was probably meant, for each equation that fails.
+        #[arg(long)]
+        suggest: bool,
     },
     /// Show how one equation is read and what it is at three states.
     Explain {
@@ -118,8 +124,8 @@ pub fn main() -> ExitCode {
         }
     };
     let outcome = match arguments.command {
-        Command::Verify { paths, out, format, sampling, only } => {
-            let request = Request { paths, options: sampling.options(), only };
+        Command::Verify { paths, out, format, sampling, only, mutants, suggest } => {
+            let request = Request { paths, options: sampling.options(), only, mutants, suggest };
             in_pool(sampling.jobs, || verify_command(&request, &out, format))
         }
         Command::Explain { path, label, sampling } => {

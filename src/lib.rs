@@ -10,13 +10,14 @@
 //! |---|---|
 //! | 6 | `cli` |
 //! | 5 | `verify` |
-//! | 4 | `report` |
+//! | 4 | `report`, `diagnose` |
 //! | 3 | `semantics`, `check`, `scene` |
 //! | 2 | `expr`, `integrator` |
 //! | 1 | `document`, `latex`, `number` |
 
 pub mod check;
 pub mod cli;
+pub mod diagnose;
 pub mod document;
 pub mod explain;
 pub mod expr;

@@ -8,6 +8,7 @@ use rayon::prelude::*;
 
 use crate::check::verdict::{DocumentReport, Judgement, Verdict};
 use crate::check::{self, Book, Options};
+use crate::diagnose::{correct, sensitivity};
 use crate::document::{self, Document, ReadError};
 use crate::report::{Run, charts};
 
@@ -23,6 +24,10 @@ pub struct Request {
     pub options: Options,
     /// The labels to judge; none for all.
     pub only: Vec<String>,
+    /// Whether to try the mutants of each equation.
+    pub mutants: bool,
+    /// Whether to search what was probably meant, for each equation that fails.
+    pub suggest: bool,
 }
 
 /// A document with what became of it.
@@ -58,7 +63,7 @@ pub fn verify(document: Document, request: &Request, judged: &(dyn Fn() + Sync))
         .filter(|k| request.only.is_empty() || request.only.contains(&book.entries[*k].equation.label))
         .collect();
     let judge = |index: &usize| {
-        let outcome = catch_unwind(AssertUnwindSafe(|| check::judge(&book, *index, &request.options)));
+        let outcome = catch_unwind(AssertUnwindSafe(|| judged_and_diagnosed(&book, *index, request)));
         judged();
         outcome.unwrap_or_else(|_| broken(&book, *index))
     };
@@ -72,6 +77,18 @@ pub fn verify(document: Document, request: &Request, judged: &(dyn Fn() + Sync))
         equations,
     };
     Verified { document, problems, report }
+}
+
+/// The judgement on an equation, with the diagnosis that was asked for.
+fn judged_and_diagnosed(book: &Book, index: usize, request: &Request) -> Judgement {
+    let mut judgement = check::judge(book, index, &request.options);
+    if request.mutants {
+        judgement.sensitivity = sensitivity::sensitivity(book, index, &judgement, &request.options);
+    }
+    if request.suggest {
+        judgement.suggestions = correct::suggestions(book, index, &judgement, &request.options);
+    }
+    judgement
 }
 
 /// The judgement on an equation at which Kenzan itself broke down.

@@ -204,27 +204,29 @@ impl Book {
 
     /// An equation taken apart. One that begins with a relation continues the equation before, as corrected.
     pub fn statement(&self, index: usize, version: Version) -> Result<Statement, Unclear> {
-        // The equations that are continued, the last first.
-        let mut chain = vec![(index, version)];
-        while let Some(&(at, version)) = chain.last() {
-            let tree = self.entries[at].formula(version).tree.as_ref();
-            match self.entries[at].previous {
-                Some(previous) if tree.is_ok_and(semantics::begins_with_relation) => {
-                    chain.push((previous, Version::Corrected))
-                }
-                _ => break,
-            }
+        let tree = self.entries[index].formula(version).tree.as_ref().map_err(|e| Unclear::Latex(e.clone()))?;
+        self.statement_of(index, tree)
+    }
+
+    /// As [`Book::statement`], for a tree that stands in the place of the equation's own.
+    pub fn statement_of(&self, index: usize, tree: &Node) -> Result<Statement, Unclear> {
+        let before =
+            |at: usize, message: &str| Unclear::Before(self.entries[at].equation.label.clone(), message.to_owned());
+        // The formulas that are continued, the last first.
+        let mut chain = vec![(index, tree)];
+        let mut at = index;
+        while let (Some(previous), true) =
+            (self.entries[at].previous, semantics::begins_with_relation(chain[chain.len() - 1].1))
+        {
+            at = previous;
+            let formula = self.entries[at].formula(Version::Corrected);
+            chain.push((at, formula.tree.as_ref().map_err(|e| before(at, &e.message))?));
         }
         let mut statement: Option<Statement> = None;
-        for (at, version) in chain.into_iter().rev() {
-            let before = |message: &str| Unclear::Before(self.entries[at].equation.label.clone(), message.to_owned());
-            let tree = self.entries[at].formula(version).tree.as_ref().map_err(|e| match at {
-                _ if at == index => Unclear::Latex(e.clone()),
-                _ => before(&e.message),
-            })?;
+        for (at, tree) in chain.into_iter().rev() {
             statement = Some(semantics::statement(tree, statement.as_ref()).map_err(|e| match at {
                 _ if at == index => Unclear::Meaning(e),
-                _ => before(&e.message),
+                _ => before(at, &e.message),
             })?);
         }
         statement.ok_or_else(|| Unclear::Meaning(semantics::Error::unsupported("nothing is printed here", &(0..0))))

@@ -49,6 +49,8 @@ pub struct Claim {
     pub rhs_text: String,
     /// The condition that an inequality is to be equivalent to.
     pub condition: Option<(Rel, Expr, Expr)>,
+    /// The bases of all symbols that the premises speak of, those left out as unrelated included.
+    pub bound: BTreeSet<SymId>,
 }
 
 /// Why a claim could not be made.
@@ -106,13 +108,15 @@ impl Source<'_> {
             targets.extend([pair.residual, pair.lhs, pair.rhs]);
         }
         targets.extend(small.iter().map(|(s, _)| world.graph.sym(*s)).collect::<Vec<_>>());
+        let bound = world.graph.symbols(&premises.residuals);
+        let bound = bound.into_iter().map(|s| world.graph.info(s).base).collect();
         premises.keep_related(&world.graph, &targets, mentioned);
         premises.close_in_time(&mut world.graph, &targets);
         let (lhs_text, rhs_text) = typed.first().map(|l| (l.lhs_text.clone(), l.rhs_text.clone())).unwrap_or_default();
-        Ok(Claim { world, rel: clause.rel, branches, premises, solve, small, lhs_text, rhs_text, condition })
+        Ok(Claim { world, rel: clause.rel, branches, premises, solve, small, lhs_text, rhs_text, condition, bound })
     }
 
-    fn branches(&self, world: &mut World, scope: &Scope, clause: &Clause) -> Result<Vec<TypedLink>, Error> {
+    pub(super) fn branches(&self, world: &mut World, scope: &Scope, clause: &Clause) -> Result<Vec<TypedLink>, Error> {
         let both =
             semantics::has_branches(&clause.lhs) || matches!(&clause.rhs, Side::Node(n) if semantics::has_branches(n));
         let mut links = vec![semantics::understand(world, scope, clause, true)?];
@@ -132,7 +136,14 @@ impl Source<'_> {
         for reference in entry.list(|a| &a.given) {
             self.add_equation(world, reference, &mut pairs)?;
         }
-        for text in &entry.scope.assume {
+        pairs.extend(self.assumed(world)?);
+        Ok(pairs)
+    }
+
+    /// The pairs of equal scalars that the section's assumptions state: what symbols are defined as, for the most part.
+    pub(super) fn assumed(&self, world: &mut World) -> Result<Vec<(Expr, Expr)>, Obstacle> {
+        let mut pairs = Vec::new();
+        for text in &self.scope().assume {
             self.add_text(world, text, &mut pairs)?;
         }
         Ok(pairs)
@@ -354,7 +365,7 @@ pub fn obstacle_text(obstacle: &Obstacle) -> String {
     }
 }
 
-fn pairs(world: &mut World, link: &TypedLink, constant: bool) -> Branch {
+pub(super) fn pairs(world: &mut World, link: &TypedLink, constant: bool) -> Branch {
     let graph = &mut world.graph;
     if constant {
         let t = graph.find("t");

@@ -26,7 +26,7 @@ const LEAST_BITS: f64 = 26.0;
 
 /// What a state says of a pair.
 #[derive(Clone, Copy, Debug, PartialEq)]
-enum Finding {
+pub(super) enum Finding {
     /// The sides agree to so many bits.
     Agree(f64),
     /// They differ; the residual relative to the terms.
@@ -48,7 +48,7 @@ fn finding<N: Real>(value: &PairValue<N>, scale_log2: f64) -> Finding {
 }
 
 /// The findings of all pairs of a branch; vectors are measured by their largest component.
-fn findings<N: Real>(pairs: &[PairValue<N>]) -> Vec<Finding> {
+pub(super) fn findings<N: Real>(pairs: &[PairValue<N>]) -> Vec<Finding> {
     let scale = pairs.iter().map(|p| p.scale_log2).fold(f64::NEG_INFINITY, f64::max);
     pairs.iter().map(|p| finding(p, scale)).collect()
 }

@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use crate::document::Problem;
 use crate::latex::ast::{Kind, Node, Rel};
-use crate::semantics::{Clause, ErrorKind, Scope, Side};
+use crate::semantics::{Clause, ErrorKind, Scope, Side, Statement};
 
 use super::book::{Book, Entry, Formula, Unclear, Version};
 use super::claim::{Claim, Obstacle, Source, obstacle_text, unclear_text};
@@ -83,6 +83,8 @@ pub fn blank(book: &Book, index: usize) -> Judgement {
         correction: None,
         expect: annotation.and_then(|a| a.expect.as_ref()).and_then(|e| expected(&e.value)),
         as_expected: false,
+        sensitivity: None,
+        suggestions: Vec::new(),
         micros: 0,
         problem: None,
     }
@@ -112,11 +114,11 @@ fn expected(text: &str) -> Option<Verdict> {
 }
 
 /// The verdict on one version of an equation.
-struct Outcome {
-    verdict: Verdict,
-    reason: Option<String>,
-    links: Vec<LinkJudgement>,
-    problem: Option<Problem>,
+pub(super) struct Outcome {
+    pub verdict: Verdict,
+    pub reason: Option<String>,
+    pub links: Vec<LinkJudgement>,
+    pub problem: Option<Problem>,
 }
 
 impl Outcome {
@@ -129,7 +131,7 @@ impl Outcome {
     }
 }
 
-fn judge_version(book: &Book, index: usize, version: Version, options: &Options) -> Outcome {
+pub(super) fn judge_version(book: &Book, index: usize, version: Version, options: &Options) -> Outcome {
     let entry = &book.entries[index];
     if let Some(circle) = book.circle(index) {
         // The document's own problems say where.
@@ -148,12 +150,18 @@ fn judge_version(book: &Book, index: usize, version: Version, options: &Options)
             return Outcome::without_links(verdict, reason, Some(trouble::unclear(entry, version, &unclear)));
         }
     };
+    judge_statement(&Source { book, index, version }, &statement, options)
+}
+
+/// Judges what an equation states, in the words of any version of it.
+pub(super) fn judge_statement(source: &Source, statement: &Statement, options: &Options) -> Outcome {
+    let (book, index, version) = (source.book, source.index, source.version);
+    let entry = &book.entries[index];
     if statement.clauses.is_empty() {
         return nothing_to_evaluate(entry, version);
     }
-    let source = Source { book, index, version };
     if !entry.list(|a| &a.solves).is_empty() {
-        return judge_solution(&source, &statement.clauses, options);
+        return judge_solution(source, &statement.clauses, options);
     }
     let mut known: Vec<Clause> = Vec::new();
     let mut links = Vec::new();
@@ -161,11 +169,11 @@ fn judge_version(book: &Book, index: usize, version: Version, options: &Options)
         if defines(book, index, clause) {
             links.push(match source.claim(clause, &entry.scope, &known) {
                 Ok(_) => definition(clause),
-                Err(obstacle) => obstructed(unjudged(clause), &source, clause, &obstacle),
+                Err(obstacle) => obstructed(unjudged(clause), source, clause, &obstacle),
             });
             known.push(clause.clone());
         } else {
-            links.push(judge_link(&source, clause, &entry.scope, &known, options));
+            links.push(judge_link(source, clause, &entry.scope, &known, options));
         }
     }
     Outcome::of(links)
@@ -213,7 +221,7 @@ fn worst(links: &[LinkJudgement]) -> Verdict {
 
 /// Whether a clause introduces a symbol: one side is a declared symbol that neither an earlier equation nor a premise
 /// mentions.
-fn defines(book: &Book, index: usize, clause: &Clause) -> bool {
+pub(super) fn defines(book: &Book, index: usize, clause: &Clause) -> bool {
     if !matches!(clause.rel, Rel::Eq | Rel::Equiv) {
         return false;
     }
@@ -274,7 +282,13 @@ fn unjudged(clause: &Clause) -> LinkJudgement {
 }
 
 /// Judges a link, and says where in the file that lies which it lacks.
-fn judge_link(source: &Source, clause: &Clause, scope: &Scope, known: &[Clause], options: &Options) -> LinkJudgement {
+pub(super) fn judge_link(
+    source: &Source,
+    clause: &Clause,
+    scope: &Scope,
+    known: &[Clause],
+    options: &Options,
+) -> LinkJudgement {
     let mut judgement = link_verdict(source, clause, scope, known, options);
     if let (Verdict::Undecided, None, Some(reason)) = (judgement.verdict, &judgement.problem, &judgement.reason) {
         let entry = &source.book.entries[source.index];

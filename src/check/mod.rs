@@ -12,11 +12,14 @@ mod newton;
 mod order;
 mod premises;
 mod random;
+mod sameness;
 mod sampling;
 mod shrink;
 mod system;
+mod trial;
 mod trouble;
 pub mod verdict;
 
 pub use book::{Book, Entry, Formula, Unclear, Version};
 pub use judge::{Options, blank, judge};
+pub use trial::{Outcome, Trial};

@@ -2,8 +2,8 @@
 
 use serde::Serialize;
 
-use crate::document::Problem;
 use super::exact::Exact;
+use crate::document::Problem;
 
 /// The verdict on a link or an equation, from best to worst.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
@@ -135,6 +135,30 @@ pub struct Correction {
     pub problem: Option<Problem>,
 }
 
+/// How sensitive a check is: what became of the formula's mutants, each with a single edit, under the same check.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Sensitivity {
+    /// The mutants that fail.
+    pub killed: usize,
+    /// The mutants that were judged; those that cannot be understood or edit only a definition are not among them.
+    pub total: usize,
+    /// The mutants among them that say the same as the formula, by a rule that does not rest on the check.
+    pub equivalent: usize,
+    /// The mutants that neither fail nor hold: the premises have no solution at which they can be evaluated.
+    pub undecided: usize,
+    /// The mutants that pass and say something else: the edit in words and what it gives.
+    pub survivors: Vec<String>,
+}
+
+/// A formula near a failing one that holds under the same check.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Suggestion {
+    /// The formula.
+    pub latex: String,
+    /// What was changed, in words.
+    pub edit: String,
+}
+
 /// The judgement on one equation.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Judgement {
@@ -180,6 +204,10 @@ pub struct Judgement {
     pub expect: Option<Verdict>,
     /// Whether the verdict is as expected.
     pub as_expected: bool,
+    /// What became of the mutants of the formula, where they were asked for.
+    pub sensitivity: Option<Sensitivity>,
+    /// What was probably meant, where the equation fails and suggestions were asked for; the likeliest first.
+    pub suggestions: Vec<Suggestion>,
     /// The time it took, in microseconds.
     pub micros: u64,
     /// What stands in the way of a verdict, with its place in the file, where no link says it.

@@ -59,6 +59,8 @@ pub(super) fn judgement(label: &str, kind: &str, link: LinkJudgement) -> Judgeme
         correction: None,
         expect: None,
         as_expected: true,
+        sensitivity: None,
+        suggestions: Vec::new(),
         micros: 118,
         problem: None,
     }

@@ -113,6 +113,11 @@ impl Scope {
         self.entries.get(pattern).map(Arc::as_ref)
     }
 
+    /// All entries, in no order.
+    pub fn entries(&self) -> impl Iterator<Item = &Entry> {
+        self.entries.values().map(Arc::as_ref)
+    }
+
     /// The bases, those declared last first.
     pub fn bases(&self) -> impl Iterator<Item = &Basis> {
         self.bases.iter().rev().map(Arc::as_ref)

@@ -1,0 +1,201 @@
+//! What was probably meant: the formulas near a failing one that hold under the same check.
+//!
+//! The search knows the printed formula, the premises, and the symbols of the equations nearby; the annotated correction
+//! it does not see, nor may any premise rest on it. First come single edits; where none mends the formula, those that
+//! mend some of its links are continued, and then pairs of edits are tried, within a budget that counts formulas and not
+//! time, so that the same notes give the same suggestions.
+
+use std::collections::HashSet;
+
+use crate::check::verdict::{Judgement, Suggestion, Verdict};
+use crate::check::{Book, Options, Outcome, Trial, Version};
+use crate::latex::ast::{Kind, Node};
+use crate::latex::{self, to_latex};
+use crate::semantics::{EntryKind, Scope};
+
+use super::mutants::{EditKind, Mutant, Reach, mutants};
+use super::names::Name;
+
+/// How many suggestions are made.
+const MOST: usize = 3;
+/// How many formulas are tried in all.
+const BUDGET: usize = 12_000;
+/// How many partly mended formulas are continued, and how often.
+const BEAM: usize = 6;
+const DEPTH: usize = 3;
+/// How many factors may be put in.
+const FACTORS: usize = 14;
+
+/// A formula some edits away from the printed one.
+#[derive(Clone)]
+struct Candidate {
+    tree: Node,
+    edits: Vec<String>,
+    cost: u32,
+    failing: usize,
+}
+
+/// The formulas near a failing one that hold, the likeliest first; none where the equation does not fail.
+pub fn suggestions(book: &Book, index: usize, judgement: &Judgement, options: &Options) -> Vec<Suggestion> {
+    if judgement.verdict != Verdict::Fails {
+        return Vec::new();
+    }
+    let mut blind = book.clone();
+    blind.entries[index].correction = None;
+    let Some(mut trial) = Trial::new(&blind, index, Version::Printed, &judgement.links, options) else {
+        return Vec::new();
+    };
+    let entry = &blind.entries[index];
+    let Ok(tree) = &entry.formula(Version::Printed).tree else { return Vec::new() };
+    let factors = factors(&blind, index, tree);
+    let reach = Reach { siblings: None, factors: &factors };
+    let mut search = Search { trial: &mut trial, scope: &entry.scope, reach, left: BUDGET, seen: HashSet::new() };
+    let failing = judgement.links.iter().filter(|l| l.verdict == Verdict::Fails).count().max(1);
+    let start = Candidate { tree: tree.clone(), edits: Vec::new(), cost: 0, failing };
+    let found = search.run(start);
+    let suggestion = |c: Candidate| Suggestion { latex: to_latex(&c.tree), edit: c.edits.join("; ") };
+    found.into_iter().take(MOST).map(suggestion).collect()
+}
+
+struct Search<'t, 'b> {
+    trial: &'t mut Trial<'b>,
+    scope: &'t Scope,
+    reach: Reach<'t>,
+    left: usize,
+    seen: HashSet<String>,
+}
+
+impl Search<'_, '_> {
+    fn run(&mut self, start: Candidate) -> Vec<Candidate> {
+        let singles = self.neighbours(&start);
+        let mut found = self.confirmed(&singles);
+        let mut beam = partly(&singles, start.failing);
+        for _ in 1..DEPTH {
+            if !found.is_empty() || beam.is_empty() {
+                break;
+            }
+            let next: Vec<Candidate> = beam
+                .iter()
+                .flat_map(|c| {
+                    let all = self.neighbours(c);
+                    all.into_iter().filter(|n| n.failing < c.failing).collect::<Vec<_>>()
+                })
+                .collect();
+            found = self.confirmed(&next);
+            beam = partly(&next, usize::MAX);
+        }
+        if found.is_empty() {
+            found = self.pairs(&singles);
+        }
+        found
+    }
+
+    /// Pairs of edits, the likeliest first.
+    fn pairs(&mut self, singles: &[Candidate]) -> Vec<Candidate> {
+        let mut ordered: Vec<&Candidate> = singles.iter().collect();
+        ordered.sort_by_key(|c| c.cost);
+        let mut found = Vec::new();
+        for single in ordered {
+            if self.left == 0 || found.len() >= MOST && single.cost > 2 {
+                break;
+            }
+            let all = self.neighbours(single);
+            found.extend(self.confirmed(&all));
+        }
+        found.sort_by_key(|c| (c.cost, c.tree_size()));
+        found
+    }
+
+    /// All formulas one edit further that were not tried before, with the number of links that fail.
+    fn neighbours(&mut self, from: &Candidate) -> Vec<Candidate> {
+        let mut all = mutants(&from.tree, self.scope, self.reach);
+        all.sort_by_key(|m| cost(m.edit.kind));
+        let mut found = Vec::new();
+        for mutant in all {
+            if self.left == 0 {
+                break;
+            }
+            if !self.seen.insert(to_latex(&mutant.tree)) {
+                continue;
+            }
+            self.left -= 1;
+            if let Some(failing) = self.trial.failing_links(&mutant.tree) {
+                found.push(from.with(mutant, failing));
+            }
+        }
+        found
+    }
+
+    /// Those that hold by the whole check.
+    fn confirmed(&mut self, candidates: &[Candidate]) -> Vec<Candidate> {
+        let mended = candidates.iter().filter(|c| c.failing == 0);
+        let mut found: Vec<Candidate> =
+            mended.filter(|c| self.trial.judge(&c.tree) == Outcome::Holds).cloned().collect();
+        found.sort_by_key(|c| (c.cost, c.tree_size()));
+        found
+    }
+}
+
+/// The best of those that mend some links.
+fn partly(candidates: &[Candidate], failing: usize) -> Vec<Candidate> {
+    let mut better: Vec<Candidate> = candidates.iter().filter(|c| c.failing < failing).cloned().collect();
+    better.sort_by_key(|c| (c.failing, c.cost));
+    better.truncate(BEAM);
+    better
+}
+
+impl Candidate {
+    fn with(&self, mutant: Mutant, failing: usize) -> Candidate {
+        let edits = self.edits.iter().cloned().chain([mutant.edit.text]).collect();
+        Candidate { tree: mutant.tree, edits, cost: self.cost + cost(mutant.edit.kind), failing }
+    }
+
+    fn tree_size(&self) -> usize {
+        to_latex(&self.tree).len()
+    }
+}
+
+/// How unlikely an edit is: what a scan or a tired hand confuses is cheap, what changes the shape of a formula dear.
+fn cost(kind: EditKind) -> u32 {
+    match kind {
+        EditKind::Index | EditKind::Dot | EditKind::Prime | EditKind::Symbol | EditKind::Power => 2,
+        EditKind::Sign | EditKind::Function | EditKind::Number | EditKind::Bracket => 3,
+        EditKind::DropFactor | EditKind::Insert => 4,
+        EditKind::Double => 5,
+        EditKind::DropTerm => 6,
+        EditKind::Invert => 7,
+    }
+}
+
+/// The factors that may have been left out: one half, the scalars of the formula and of its premises, and the sines and
+/// cosines of its angles.
+fn factors(book: &Book, index: usize, tree: &Node) -> Vec<Node> {
+    let entry = &book.entries[index];
+    let mut near: Vec<&Node> = vec![tree];
+    let given = entry.list(|a| &a.given).iter().chain(entry.list(|a| &a.solves));
+    let indices = given.filter_map(|g| book.find(&g.value)).map(|(k, _)| k).chain(entry.previous);
+    near.extend(indices.filter_map(|k| book.entries[k].formula(Version::Corrected).tree.as_ref().ok()));
+    let mut scalars: Vec<Node> = Vec::new();
+    near.iter().for_each(|n| collect(&entry.scope, n, &mut scalars));
+    let angles =
+        scalars.iter().filter(|n| Name::of(&entry.scope, n).is_some_and(|n| n.entry.is_angle() && n.dots == 0));
+    let turned = angles.flat_map(|n| ["\\sin", "\\cos"].map(|f| latex::parse(&format!("{f} {}", to_latex(n)))));
+    let half = latex::parse("\\frac{1}{2}");
+    let mut all: Vec<Node> = turned.chain([half]).filter_map(Result::ok).collect();
+    all.extend(scalars);
+    all.truncate(FACTORS);
+    all
+}
+
+/// The scalars of a formula, without powers, each once.
+fn collect(scope: &Scope, node: &Node, found: &mut Vec<Node>) {
+    if let Some(name) = Name::of(scope, node) {
+        let is_scalar = matches!(name.entry.kind, EntryKind::Scalar | EntryKind::Component { .. });
+        let bare = name.without_power();
+        if is_scalar && found.iter().all(|f| to_latex(f) != to_latex(&bare)) {
+            found.push(bare);
+        }
+    } else if !matches!(node.kind, Kind::Text(_)) {
+        node.children().into_iter().for_each(|child| collect(scope, child, found));
+    }
+}
