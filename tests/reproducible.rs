@@ -12,7 +12,7 @@ use kenzan::verify::{self, Request};
 fn reports(seed: u64, threads: usize) -> (String, String) {
     let notes = Path::new(env!("CARGO_MANIFEST_DIR")).join("notes/gyroscope.md");
     let options = Options { seed, states: 8, ..Options::default() };
-    let request = Request { paths: vec![notes], options, only: Vec::new() };
+    let request = Request { paths: vec![notes], options, only: Vec::new(), ..Request::default() };
     let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).stack_size(32 << 20).build().unwrap();
     pool.install(|| {
         let documents = verify::documents(&request.paths).unwrap();

@@ -89,7 +89,7 @@ fn erratum() -> Judgement {
         given: vec!["1".into(), "99".into()],
         assumptions: vec![r"\sin\theta \ne 0".into()],
         reason: Some(r"the square of $\sin\theta$ is missing".into()),
-        correction: Some(Correction { latex: mended.into(), verdict: Verdict::Holds, links: vec![agreeing(mended)] }),
+        correction: Some(Correction { latex: mended.into(), verdict: Verdict::Holds, links: vec![agreeing(mended)], problem: None }),
         expect: Some(Verdict::Fails),
         ..judgement("56", "derived", failing)
     }
