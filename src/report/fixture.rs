@@ -85,7 +85,12 @@ fn erratum() -> Judgement {
         given: vec!["1".into(), "99".into()],
         assumptions: vec![r"\sin\theta \ne 0".into()],
         reason: Some(r"the square of $\sin\theta$ is missing".into()),
-        correction: Some(Correction { latex: mended.into(), verdict: Verdict::Holds, links: vec![agreeing(mended)] }),
+        correction: Some(Correction {
+            latex: mended.into(),
+            verdict: Verdict::Holds,
+            links: vec![agreeing(mended)],
+            problem: None,
+        }),
         expect: Some(Verdict::Fails),
         ..judgement("56", "derived", failing)
     }
@@ -177,7 +182,7 @@ pub(super) fn run() -> Run {
         name: "gyroscope".into(),
         path: "notes/gyroscope.md".into(),
         title: "ジャイロスコープ & <tops>".into(),
-        problems: vec!["line 7: a display is not closed: `$$ a`".into()],
+        problems: vec!["notes/gyroscope.md:7:1: a display is not closed: `$$ a`".into()],
         equations,
     };
     let empty = DocumentReport {
