@@ -2,7 +2,7 @@
 //! panics, still judges the other equations, and leaves an older report alone.
 //!
 //! The notes are in `tests/bad`; the messages are snapshots, in which no path of the machine and no time stands.
-#![allow(missing_docs)]
+#![allow(missing_docs, clippy::unwrap_used)]
 
 use std::path::{Path, PathBuf};
 use std::process::Command;

@@ -10,12 +10,15 @@ const MOST_HALVINGS: usize = 12;
 /// A system at a point: its residuals and their Jacobian.
 type Values = (DVector<f64>, DMatrix<f64>);
 
+/// Solves J s = F for the step s, from F and J.
+type Step<'a> = &'a dyn Fn(&DVector<f64>, &DMatrix<f64>) -> Option<DVector<f64>>;
+
 /// Descends from a start to a point where steps no longer change anything: the point, the residuals and the Jacobian
 /// there. Steps are halved until the residuals become smaller. `at` evaluates the system, `step` solves J s = F.
 pub fn descend(
     start: DVector<f64>,
     at: &mut dyn FnMut(&DVector<f64>) -> Option<Values>,
-    step: &dyn Fn(&DVector<f64>, &DMatrix<f64>) -> Option<DVector<f64>>,
+    step: Step,
 ) -> Option<(DVector<f64>, DVector<f64>, DMatrix<f64>)> {
     let mut x = start;
     let (mut residual, mut jacobian) = finite(at(&x))?;
