@@ -2,17 +2,20 @@
 //! panics, still judges the other equations, and leaves an older report alone.
 //!
 //! The notes are in `tests/bad`; the messages are snapshots, in which no path of the machine and no time stands.
-#![allow(missing_docs)]
+#![allow(missing_docs, clippy::unwrap_used)]
 
 use std::path::{Path, PathBuf};
 use std::process::Command;
 use std::time::{Duration, Instant};
 
-/// A directory of the test's own, emptied.
-fn scratch(name: &str) -> PathBuf {
+/// A directory of the test's own, with nothing in it but some files of `tests/bad`.
+fn scratch(name: &str, files: &[&str]) -> PathBuf {
     let path = Path::new(env!("CARGO_TARGET_TMPDIR")).join("bad_input").join(name);
     let _ = std::fs::remove_dir_all(&path);
     std::fs::create_dir_all(&path).unwrap();
+    for file in files {
+        std::fs::copy(Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/bad").join(file), path.join(file)).unwrap();
+    }
     path
 }
 
@@ -22,13 +25,12 @@ struct Said {
     text: String,
 }
 
-/// Runs the program in `tests/bad`; `$OUT` among the arguments is the directory `out`.
-fn run(arguments: &[&str], out: &Path) -> Said {
-    let out = out.to_str().unwrap();
+/// Runs the program in a directory. All paths are relative to it, since long ones would break lines elsewhere.
+fn run(arguments: &[&str], directory: &Path) -> Said {
     let output = Command::new(env!("CARGO_BIN_EXE_kenzan"))
-        .current_dir(Path::new(env!("CARGO_MANIFEST_DIR")).join("tests/bad"))
-        .args(arguments.iter().map(|a| a.replace("$OUT", out)))
-        .env("NO_COLOR", "1")
+        .current_dir(directory)
+        .args(arguments)
+        .envs([("NO_COLOR", "1"), ("LC_ALL", "C.UTF-8"), ("TERM", "xterm")])
         .env_remove("FORCE_COLOR")
         .env_remove("RUST_BACKTRACE")
         .output()
@@ -36,7 +38,7 @@ fn run(arguments: &[&str], out: &Path) -> Said {
     let (stdout, stderr) = (String::from_utf8(output.stdout).unwrap(), String::from_utf8(output.stderr).unwrap());
     let text = format!("{stderr}---\n{stdout}exit {:?}\n", output.status.code());
     assert!(!text.contains("panicked"), "{text}");
-    Said { code: output.status.code(), text: without_times(&text.replace(out, "$OUT")) }
+    Said { code: output.status.code(), text: without_times(&text) }
 }
 
 /// `2 equations in 594 µs, seed 1` without the time.
@@ -50,7 +52,7 @@ fn without_times(text: &str) -> String {
 
 /// Verifies a file of `tests/bad`.
 fn verify(file: &str) -> String {
-    run(&["verify", file, "--out", "$OUT"], &scratch(file)).text
+    run(&["verify", file], &scratch(file, &[file])).text
 }
 
 macro_rules! notes {
@@ -70,58 +72,56 @@ notes! {
 
 #[test]
 fn no_file_and_no_notes() {
-    let out = scratch("no_file");
-    insta::assert_snapshot!("no_such_file", run(&["verify", "nosuch.md", "--out", "$OUT"], &out).text);
-    insta::assert_snapshot!("directory", run(&["verify", ".", "--out", "$OUT"], &out).text);
-    assert_eq!(std::fs::read_dir(&out).unwrap().count(), 0, "nothing is written");
+    let at = scratch("no_file", &[]);
+    insta::assert_snapshot!("no_such_file", run(&["verify", "nosuch.md"], &at).text);
+    insta::assert_snapshot!("directory", run(&["verify", "."], &at).text);
+    assert!(!at.join("out").exists(), "nothing is written");
 }
 
 #[test]
 fn one_file_that_cannot_be_read_stops_before_anything_is_written() {
-    let out = scratch("second");
-    let said = run(&["verify", "undeclared.md", "nosuch.md", "--out", "$OUT"], &out);
+    let at = scratch("second", &["undeclared.md"]);
+    let said = run(&["verify", "undeclared.md", "nosuch.md"], &at);
     assert_eq!(said.code, Some(2), "{}", said.text);
-    assert_eq!(std::fs::read_dir(&out).unwrap().count(), 0);
+    assert!(!at.join("out").exists());
 }
 
 #[test]
 fn arguments() {
-    let out = scratch("arguments");
-    insta::assert_snapshot!("only", run(&["verify", "shapes.md", "--only", "9", "--out", "$OUT"], &out).text);
-    insta::assert_snapshot!("explain", run(&["explain", "shapes.md", "9"], &out).text);
+    let at = scratch("arguments", &["shapes.md"]);
+    insta::assert_snapshot!("only", run(&["verify", "shapes.md", "--only", "9"], &at).text);
+    insta::assert_snapshot!("explain", run(&["explain", "shapes.md", "9"], &at).text);
     for wrong in [["--states", "0"], ["--jobs", "0"], ["--jobs", "100000"], ["--precision", "x"], ["--format", "xml"]] {
-        let said = run(&[&["verify", "shapes.md", "--out", "$OUT"][..], &wrong[..]].concat(), &out);
+        let said = run(&["verify", "shapes.md", wrong[0], wrong[1]], &at);
         assert_eq!(said.code, Some(2), "{}", said.text);
         assert!(said.text.contains(wrong[0]) && said.text.contains(wrong[1]), "{}", said.text);
     }
-    assert_eq!(std::fs::read_dir(&out).unwrap().count(), 0, "nothing is written");
+    assert!(!at.join("out").exists(), "nothing is written");
 }
 
 #[cfg(not(feature = "rug"))]
 #[test]
 fn precision_without_the_feature() {
-    let out = scratch("precision");
-    insta::assert_snapshot!(
-        "precision",
-        run(&["verify", "shapes.md", "--precision", "256", "--out", "$OUT"], &out).text
-    );
+    let at = scratch("precision", &["shapes.md"]);
+    insta::assert_snapshot!("precision", run(&["verify", "shapes.md", "--precision", "256"], &at).text);
 }
 
 #[test]
 fn a_file_stands_where_the_report_should_go() {
-    let out = scratch("file").join("out");
-    std::fs::write(&out, "mine").unwrap();
-    insta::assert_snapshot!("out_is_a_file", run(&["verify", "shapes.md", "--out", "$OUT"], &out).text);
-    assert_eq!(std::fs::read_to_string(&out).unwrap(), "mine");
+    let at = scratch("file", &["shapes.md"]);
+    std::fs::write(at.join("out"), "mine").unwrap();
+    insta::assert_snapshot!("out_is_a_file", run(&["verify", "shapes.md"], &at).text);
+    assert_eq!(std::fs::read_to_string(at.join("out")).unwrap(), "mine");
 }
 
 /// A directory in the place of report.html cannot be written to, even by root.
 #[test]
 fn an_older_report_is_left_alone() {
-    let out = scratch("older");
-    std::fs::create_dir(out.join("report.html")).unwrap();
+    let at = scratch("older", &["shapes.md"]);
+    let out = at.join("out");
+    std::fs::create_dir_all(out.join("report.html")).unwrap();
     std::fs::write(out.join("report.json"), "older").unwrap();
-    insta::assert_snapshot!("out_not_writable", run(&["verify", "shapes.md", "--out", "$OUT"], &out).text);
+    insta::assert_snapshot!("out_not_writable", run(&["verify", "shapes.md"], &at).text);
     assert_eq!(std::fs::read_to_string(out.join("report.json")).unwrap(), "older");
     assert_eq!(std::fs::read_dir(&out).unwrap().count(), 2, "nothing is left lying about");
 }
@@ -131,11 +131,10 @@ const HEAD: &str =
 
 /// Verifies notes that are too large for the repository: their first equation, which is sound, must hold all the same.
 fn large(name: &str, rest: &str) -> String {
-    let out = scratch(name);
-    let path = out.join("notes.md");
-    std::fs::write(&path, format!("{HEAD}{rest}")).unwrap();
+    let at = scratch(name, &[]);
+    std::fs::write(at.join("notes.md"), format!("{HEAD}{rest}")).unwrap();
     let begin = Instant::now();
-    let said = run(&["verify", "$OUT/notes.md", "--out", "$OUT"], &out);
+    let said = run(&["verify", "notes.md"], &at);
     assert!(begin.elapsed() < Duration::from_secs(60), "{:?}", begin.elapsed());
     assert_eq!(said.code, Some(1), "{:.2000}", said.text);
     assert!(said.text.contains("✓ 1 holds"), "{:.2000}", said.text);

@@ -12,10 +12,13 @@ use kenzan::check::{self, Book, Options};
 use kenzan::document;
 use libtest_mimic::{Arguments, Trial};
 
+/// The bundled notes, by their names in `notes/`.
+const NOTES: [&str; 1] = ["gyroscope"];
+
 fn main() -> ExitCode {
     let arguments = Arguments::from_args();
     let mut trials = Vec::new();
-    for name in ["gyroscope"] {
+    for name in NOTES {
         let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("notes").join(format!("{name}.md"));
         match document::read(&path) {
             Ok(document) => trials.extend(equations(name, &document)),

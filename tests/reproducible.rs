@@ -1,5 +1,5 @@
 //! The same seed gives the same bytes, on any number of threads; another seed does not.
-#![allow(missing_docs)]
+#![allow(missing_docs, clippy::unwrap_used, clippy::panic)]
 
 use std::path::Path;
 use std::time::Instant;

@@ -317,9 +317,8 @@ impl Elaborator<'_> {
                 && matches!(base.kind, Kind::BigOp(_))
             {
                 // What follows the operator within this node is bound by it.
-                match sub {
-                    Some(sub) => self.collect_indices(sub, &mut Vec::new(), &mut limits),
-                    None => {}
+                if let Some(sub) = sub {
+                    self.collect_indices(sub, &mut Vec::new(), &mut limits);
                 }
                 bound.extend(limits);
                 continue;
