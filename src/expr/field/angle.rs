@@ -12,7 +12,7 @@ use crate::expr::graph::{Expr, Graph, Node};
 use crate::expr::ratio::{self, Ratio};
 
 /// The most terms of an argument, and the most factors of a term.
-const MOST: usize = 24;
+const MOST: usize = 16;
 
 /// Powers of expressions that are not taken apart further, in order.
 type Monomial = Vec<(Expr, i32)>;
