@@ -88,7 +88,8 @@ pub fn test(claim: &mut Claim, unknowns: &[SymId], random: &mut Random) -> Resul
     }
 }
 
-/// What must vanish. Of the two branches of ± one must hold: the product of the residuals vanishes.
+/// What must vanish. Of the two branches of ± one must hold: the product of the residuals vanishes. That both do occur
+/// is known from the values.
 fn targets(claim: &mut Claim) -> Result<Vec<Expr>, Inexact> {
     match claim.branches.as_slice() {
         [branch] => Ok(branch.iter().map(|p| p.residual).collect()),
