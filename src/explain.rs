@@ -84,6 +84,12 @@ fn verdict(out: &mut String, judgement: &Judgement) -> std::fmt::Result {
     for link in &judgement.links {
         let reason = link.reason.as_ref().map(|r| format!(": {r}")).unwrap_or_default();
         writeln!(out, "  {}  {}{reason}", name(link.verdict), link.latex)?;
+        if let Some(exact) = &link.exact {
+            writeln!(out, "    exact: {} trials, false with a chance below 2^{}", exact.trials, exact.log2_error)?;
+        }
+        if let Some(why) = &link.inexact {
+            writeln!(out, "    not exact: {why}")?;
+        }
         if let Some(order) = &link.order {
             writeln!(out, "    order in {}: {:.3} measured, {} claimed", order.small, order.measured, order.claimed)?;
         }

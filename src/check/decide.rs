@@ -247,6 +247,7 @@ pub fn inequality(mut judgement: LinkJudgement, mut claim: Claim, name: &str, op
         }
     }
     judgement.strength = Some(Strength::Numeric);
+    judgement.inexact = Some("a prime field has no order".into());
     judgement.verdict = if judgement.failing_states > 0 { Verdict::Fails } else { Verdict::Holds };
     if judgement.states == 0 || condition.is_some() && seen.contains(&0) {
         judgement.verdict = Verdict::Undecided;

@@ -40,24 +40,50 @@ pub enum Unsolved {
 }
 
 impl Elimination {
-    /// Takes the derivatives.
-    pub fn new(graph: &mut Graph, residuals: &[Expr], unknowns: &[SymId]) -> Self {
+    /// Takes the derivatives, and finds out which unknowns they depend on.
+    pub fn new(graph: &mut Graph, residuals: &[Expr], unknowns: &[SymId], random: &mut dyn FnMut() -> u64) -> Self {
         let number: BTreeMap<SymId, usize> = unknowns.iter().enumerate().map(|(k, s)| (*s, k)).collect();
+        let within = |graph: &Graph, e: Expr| -> BTreeSet<usize> {
+            graph.symbols(&[e]).iter().filter_map(|s| number.get(s).copied()).collect()
+        };
         let jacobian = graph.jacobian(residuals, unknowns);
-        let mut rows = Vec::new();
+        let mut rows: Vec<BTreeMap<usize, Slope>> = Vec::new();
         for row in jacobian {
-            let mut slopes = BTreeMap::new();
-            for (k, derivative) in row.into_iter().enumerate().filter(|(_, d)| !graph.is_zero(*d)).collect::<Vec<_>>() {
-                let within =
-                    |graph: &Graph, e| graph.symbols(&[e]).iter().filter_map(|s| number.get(s).copied()).collect();
-                let of: BTreeSet<usize> = within(graph, derivative);
-                let curvature = of.contains(&k).then(|| graph.diff(derivative, unknowns[k]));
-                let curvature = curvature.filter(|e| !within(graph, *e).contains(&k));
-                slopes.insert(k, Slope { derivative, of, curvature });
-            }
-            rows.push(slopes);
+            let slopes = row.into_iter().enumerate().filter(|(_, d)| !graph.is_zero(*d));
+            let slope = |(k, derivative)| (k, Slope { derivative, of: within(graph, derivative), curvature: None });
+            rows.push(slopes.map(slope).collect());
         }
-        Elimination { residuals: residuals.to_vec(), unknowns: unknowns.to_vec(), rows }
+        let mut elimination = Elimination { residuals: residuals.to_vec(), unknowns: unknowns.to_vec(), rows };
+        elimination.narrow(graph, random);
+        for (k, slope) in elimination.rows.iter_mut().flatten().filter(|(k, slope)| slope.of.contains(k)) {
+            let curvature = graph.diff(slope.derivative, unknowns[*k]);
+            slope.curvature = Some(curvature).filter(|e| !within(graph, *e).contains(k));
+        }
+        elimination
+    }
+
+    /// Drops unknowns that stand in a formula but cancel: derivatives that vanish at a random point, and dependences on
+    /// an unknown that may be drawn again without a change. Should chance deceive here, the steps that are taken later
+    /// lead to no solution, which is seen.
+    fn narrow(&mut self, graph: &Graph, random: &mut dyn FnMut() -> u64) {
+        let field = Field::new(graph, &self.expressions());
+        let point = field.draw(random);
+        let other = field.draw(random);
+        let values = field.eval(&point, 0);
+        for row in &mut self.rows {
+            row.retain(|_, slope| !values.at(slope.derivative).is_some_and(Element::vanishes));
+        }
+        for (j, s) in self.unknowns.iter().enumerate() {
+            let mut moved = point.clone();
+            moved.symbols[s.index()] = other.symbols[s.index()];
+            let moved = field.eval(&moved, 0);
+            for slope in self.rows.iter_mut().flat_map(|row| row.values_mut()).filter(|slope| slope.of.contains(&j)) {
+                let (a, b) = (values.at(slope.derivative), moved.at(slope.derivative));
+                if a.zip(b).is_some_and(|(a, b)| a.value == b.value) {
+                    slope.of.remove(&j);
+                }
+            }
+        }
     }
 
     /// Everything that has to be evaluated.

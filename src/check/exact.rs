@@ -35,8 +35,8 @@ pub struct Exact {
 /// Why a statement has no exact verdict.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Inexact {
-    /// The statement is meant with ±.
-    #[error("it has the two branches of ±")]
+    /// Several components are meant with ±.
+    #[error("its components have the two branches of ±")]
     Branches,
     /// What the field knows nothing of.
     #[error("{} has no meaning in a prime field", .0.join(" and "))]
@@ -69,9 +69,9 @@ pub enum Inexact {
 
 /// Tests a claim; `unknowns` are what its premises are solved for.
 pub fn test(claim: &mut Claim, unknowns: &[SymId], random: &mut Random) -> Result<Exact, Inexact> {
-    let [branch] = claim.branches.as_slice() else { return Err(Inexact::Branches) };
-    let targets: Vec<Expr> = branch.iter().map(|p| p.residual).collect();
-    let elimination = Elimination::new(&mut claim.world.graph, &claim.premises.residuals, unknowns);
+    let targets = targets(claim)?;
+    let graph = &mut claim.world.graph;
+    let elimination = Elimination::new(graph, &claim.premises.residuals, unknowns, &mut || random.next());
     let trial = Trial::new(claim, &elimination, &targets, unknowns)?;
     let mut worst = 1;
     let mut done = 0;
@@ -85,6 +85,19 @@ pub fn test(claim: &mut Claim, unknowns: &[SymId], random: &mut Random) -> Resul
         if done >= MOST_TRIALS {
             return Err(Inexact::Degree);
         }
+    }
+}
+
+/// What must vanish. Of the two branches of ± one must hold: the product of the residuals vanishes. That both do occur
+/// is known from the values.
+fn targets(claim: &mut Claim) -> Result<Vec<Expr>, Inexact> {
+    match claim.branches.as_slice() {
+        [branch] => Ok(branch.iter().map(|p| p.residual).collect()),
+        [upper, lower] => match (upper.as_slice(), lower.as_slice()) {
+            ([upper], [lower]) => Ok(vec![claim.world.graph.mul(upper.residual, lower.residual)]),
+            _ => Err(Inexact::Branches),
+        },
+        _ => Err(Inexact::Branches),
     }
 }
 
@@ -177,3 +190,6 @@ impl<'c> Trial<'c> {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

@@ -1,6 +1,6 @@
 //! How many equations have which verdict.
 
-use crate::check::verdict::{Judgement, Verdict};
+use crate::check::verdict::{Judgement, Strength, Verdict};
 use serde::Serialize;
 
 /// All verdicts, in the order in which reports list them.
@@ -21,6 +21,8 @@ pub struct Counts {
     pub total: usize,
     /// `holds`
     pub holds: usize,
+    /// Those of them that hold exactly: all trials in a prime field vanish.
+    pub exact: usize,
     /// `asymptotic`
     pub asymptotic: usize,
     /// `definition`
@@ -46,6 +48,8 @@ impl Counts {
         for judgement in judgements {
             counts.total += 1;
             *counts.slot(judgement.verdict) += 1;
+            counts.exact +=
+                usize::from(judgement.verdict == Verdict::Holds && judgement.strength == Some(Strength::Exact));
             counts.errata += usize::from(judgement.is_erratum());
             counts.unexpected += usize::from(!judgement.as_expected);
         }

@@ -1,6 +1,7 @@
 //! A small run built by hand that has every verdict, strength and oddity: what the snapshots show.
 
 use super::{Chart, Run, charts};
+use crate::check::exact::Exact;
 use crate::check::verdict::{
     Assignment, Correction, Counterexample, DocumentReport, Judgement, LinkJudgement, Order, Strength, Verdict,
 };
@@ -170,6 +171,8 @@ pub(super) fn run() -> Run {
     definition.because = Some("introduces $\\Omega$".into());
     let mut identity = judgement("2", "identity", agreeing(r"\sin^2\theta + \cos^2\theta = 1"));
     identity.strength = Some(Strength::Exact);
+    identity.links[0].strength = Some(Strength::Exact);
+    identity.links[0].exact = Some(Exact { trials: 3, log2_error: -147 });
     let mut damaged = judgement("3", "identity", agreeing(r"\frac{d\theta}{dt} = \dot\theta"));
     damaged.latex = r"\frac{d\thetaa}{dt} = \dot\theta".into();
     damaged.as_printed = false;

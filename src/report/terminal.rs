@@ -36,6 +36,9 @@ fn summarize(text: &mut String, document: &DocumentReport, paint: Paint) -> std:
     let shares: Vec<_> =
         counts::ORDER.into_iter().filter(|v| counts.with(*v) > 0).map(|v| share(counts, v, paint)).collect();
     writeln!(text, "  {}", if shares.is_empty() { "no displayed equations".to_owned() } else { shares.join("   ") })?;
+    if counts.holds > 0 {
+        writeln!(text, "  exact: {} of {} that hold", counts.exact, counts.holds)?;
+    }
     for problem in &document.problems {
         writeln!(text, "  {} {}", paint.verdict(Verdict::Unreadable, "!"), one_line(problem))?;
     }

@@ -39,6 +39,11 @@ pub(super) fn strength(strength: Strength) -> &'static str {
     }
 }
 
+/// The bound on the chance of a false exact verdict: `false with a chance below 2⁻¹⁰²`.
+pub(super) fn exactness(log2_error: i32) -> String {
+    format!("false with a chance below 2{}", superscript(log2_error))
+}
+
 /// Why an equation has its verdict: its own reason, or else that of the first link that has the equation's verdict.
 pub(super) fn reason(judgement: &Judgement) -> Option<&str> {
     let deciding = || judgement.links.iter().find(|link| link.verdict == judgement.verdict)?.reason.as_deref();

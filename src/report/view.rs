@@ -5,7 +5,7 @@
 
 use super::math::Renderer;
 use super::text::{duration, language, number, strength, symbol, word};
-use super::{Counts, Options, Run, diff, view_charts};
+use super::{Counts, Options, Run, diff, text, view_charts};
 use crate::check::verdict::{Correction, Counterexample, DocumentReport, Judgement, LinkJudgement, Order, Verdict};
 use serde::Serialize;
 use std::collections::{HashMap, HashSet};
@@ -235,6 +235,7 @@ impl Builder {
         let only = if let [link] = j.links.as_slice() { Some(link) } else { None };
         let mut facts = facts(j.strength, j.bits, only.and_then(|l| l.residual), j.states);
         facts.extend(only.and_then(failing_states));
+        facts.extend(exactness(j));
         let reason = j.reason.as_ref().or_else(|| only.and_then(|l| l.reason.as_ref()));
         Equation {
             anchor: anchor.to_owned(),
@@ -283,6 +284,8 @@ impl Builder {
     fn link(&self, link: &LinkJudgement) -> LinkView {
         let mut facts = facts(link.strength, link.bits, link.residual, link.states);
         facts.extend(failing_states(link));
+        facts.extend(link.exact.map(|e| text::exactness(e.log2_error)));
+        facts.extend(link.inexact.as_ref().map(|why| format!("not exact: {why}")));
         LinkView {
             badge: badge(link.verdict),
             math_html: self.renderer.display(&link.latex),
@@ -368,6 +371,15 @@ fn facts(
         n => facts.push(format!("{n} states")),
     }
     facts
+}
+
+/// The bound on the chance of a false exact verdict, or why a single link has none.
+fn exactness(j: &Judgement) -> Option<String> {
+    if j.strength == Some(crate::check::verdict::Strength::Exact) {
+        return j.links.iter().filter_map(|l| l.exact).map(|e| e.log2_error).max().map(text::exactness);
+    }
+    let [link] = j.links.as_slice() else { return None };
+    link.inexact.as_ref().map(|why| format!("not exact: {why}"))
 }
 
 fn failing_states(link: &LinkJudgement) -> Option<String> {

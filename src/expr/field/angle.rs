@@ -12,7 +12,7 @@ use crate::expr::graph::{Expr, Graph, Node};
 use crate::expr::ratio::{self, Ratio};
 
 /// The most terms of an argument, and the most factors of a term.
-const MOST: usize = 24;
+const MOST: usize = 16;
 
 /// Powers of expressions that are not taken apart further, in order.
 type Monomial = Vec<(Expr, i32)>;
@@ -39,7 +39,8 @@ impl Turn {
 pub(super) struct Angles {
     pub atoms: usize,
     pub turns: BTreeMap<Expr, Turn>,
-    /// Whether an atom is anything but a product of powers of symbols: it may have relations that are not seen.
+    /// Whether an atom is anything but a product of powers of symbols (a fraction of π, the angle 1, a root): it may have
+    /// relations that are not seen.
     pub opaque: bool,
 }
 
@@ -58,7 +59,7 @@ impl Angles {
             for (m, (_, d)) in &sum {
                 let common = denominators.entry(m.clone()).or_insert(1);
                 *common = lcm(*common, *d).unwrap_or(*common);
-                angles.opaque |= m.iter().any(|(e, _)| !matches!(graph.node(*e), Node::Symbol(_)));
+                angles.opaque |= m.is_empty() || m.iter().any(|(e, _)| !matches!(graph.node(*e), Node::Symbol(_)));
             }
             parts.push((e, sum, quarters));
         }

@@ -24,6 +24,8 @@
 
 mod angle;
 mod degree;
+#[cfg(test)]
+mod tests;
 
 pub use degree::{Degree, Element, uniform};
 
