@@ -211,7 +211,9 @@ impl Book {
         // The formulas that are continued, the last first.
         let mut chain = vec![tree];
         let mut at = index;
-        while let (Some(previous), true) = (self.entries[at].previous, semantics::begins_with_relation(chain[chain.len() - 1])) {
+        while let (Some(previous), true) =
+            (self.entries[at].previous, semantics::begins_with_relation(chain[chain.len() - 1]))
+        {
             at = previous;
             let formula = self.entries[at].formula(Version::Corrected);
             chain.push(formula.tree.as_ref().map_err(|e| Unclear::Latex(e.clone()))?);

@@ -51,7 +51,11 @@ pub fn split(clauses: &[Clause]) -> Vec<Clause> {
         match sides.iter().find(|s| is_null(s)).filter(|_| equalities) {
             Some(null) => {
                 let others = sides.iter().filter(|s| !is_null(s));
-                out.extend(others.map(|s| Clause { lhs: (*s).clone(), rhs: Side::Node((*null).clone()), ..first.clone() }));
+                out.extend(others.map(|s| Clause {
+                    lhs: (*s).clone(),
+                    rhs: Side::Node((*null).clone()),
+                    ..first.clone()
+                }));
             }
             None => out.extend_from_slice(chain),
         }
@@ -84,7 +88,8 @@ pub fn same(source: &Source, a: &Clause, b: &Clause, random: &Random) -> bool {
     }
     let Ok(assumed) = source.assumed(&mut world) else { return false };
     let premises = Premises::new(&mut world.graph, &assumed, &Default::default());
-    let mut resolved = |es: &[Expr]| -> Vec<Expr> { es.iter().map(|e| premises.resolve(&mut world.graph, *e)).collect() };
+    let mut resolved =
+        |es: &[Expr]| -> Vec<Expr> { es.iter().map(|e| premises.resolve(&mut world.graph, *e)).collect() };
     let (left, right) = (resolved(&left), resolved(&right));
     compare(&mut world, &left, &right, ordered, false, random.clone())
 }
@@ -169,7 +174,8 @@ fn powers(world: &World, sample: &Sample) -> Option<Vec<(usize, i32)>> {
 fn proportional(sample: &Sample, ordered: bool, powers: &[(usize, i32)]) -> bool {
     let mut all: Vec<(Sized, Sized)> = Vec::new();
     for (values, left, right) in &sample.states {
-        let factor = powers.iter().fold(Tracked::<Df64>::from_ratio(1, 1, &()), |f, (p, n)| f.times(&values[*p].to_the(*n)));
+        let factor =
+            powers.iter().fold(Tracked::<Df64>::from_ratio(1, 1, &()), |f, (p, n)| f.times(&values[*p].to_the(*n)));
         let size = if factor.to_f64() < 0.0 { Tracked::zero(&()).minus(&factor) } else { factor.clone() };
         let scaled = left.iter().map(|l| (l.0.times(&factor), l.1.times(&size)));
         all.extend(scaled.zip(right.iter().cloned()));

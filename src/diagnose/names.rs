@@ -21,7 +21,10 @@ pub struct Name<'s> {
 impl<'s> Name<'s> {
     /// The symbol that a node is, if it is one; indices of sums are none.
     pub fn of(scope: &'s Scope, node: &Node) -> Option<Self> {
-        if !matches!(node.kind, Kind::Symbol(_) | Kind::Styled(..) | Kind::Accent(..) | Kind::Dots(..) | Kind::Scripts { .. }) {
+        if !matches!(
+            node.kind,
+            Kind::Symbol(_) | Kind::Styled(..) | Kind::Accent(..) | Kind::Dots(..) | Kind::Scripts { .. }
+        ) {
             return None;
         }
         let (powerless, sup) = match &node.kind {
@@ -42,7 +45,8 @@ impl<'s> Name<'s> {
 
     /// The symbol with its dots, without its power.
     pub fn without_power(&self) -> Node {
-        let bare = Name { dots: self.dots, bare: self.bare.clone(), entry: self.entry, sup: None, span: self.span.clone() };
+        let bare =
+            Name { dots: self.dots, bare: self.bare.clone(), entry: self.entry, sup: None, span: self.span.clone() };
         bare.replaced(&self.bare, self.dots)
     }
 
@@ -132,7 +136,9 @@ pub fn siblings(scope: &Scope, name: &Name, most: Option<usize>) -> Vec<(EditKin
             EditKind::Index
         } else if own.base == other.base && own.sub == other.sub && own.primes.abs_diff(other.primes) == 1 {
             EditKind::Prime
-        } else if alike(&own.letter, &other.letter) || same_role && (same_unit || own.sub == other.sub && !own.sub.is_empty()) {
+        } else if alike(&own.letter, &other.letter)
+            || same_role && (same_unit || own.sub == other.sub && !own.sub.is_empty())
+        {
             EditKind::Symbol
         } else {
             continue;
