@@ -107,8 +107,10 @@ impl<'b> Trial<'b> {
     pub fn judge(&mut self, tree: &Node) -> Outcome {
         let Ok(statement) = self.source.book.statement_of(self.source.index, tree) else { return Outcome::Unclear };
         let same_links = statement.clauses.len() == self.statement.clauses.len() && !self.solution;
-        if !same_links || self.changed(&statement).any(|k| self.links[k].verdict == Verdict::Definition) {
-            return self.in_full(&statement);
+        let definition = same_links && self.changed(&statement).any(|k| self.links[k].verdict == Verdict::Definition);
+        if !same_links || definition {
+            let outcome = self.in_full(&statement);
+            return if definition && outcome == Outcome::Holds { Outcome::Definition } else { outcome };
         }
         let changed: Vec<usize> = self.changed(&statement).collect();
         let unchanged_fails = |k: usize| self.links[k].verdict > Verdict::Asymptotic && !changed.contains(&k);
@@ -155,6 +157,10 @@ impl<'b> Trial<'b> {
         if statement.clauses.len() != self.links.len() {
             return None;
         }
+        // An edit elsewhere mends nothing.
+        if !self.changed(&statement).any(|k| self.links[k].verdict > Verdict::Asymptotic) {
+            return None;
+        }
         let mut failing = 0;
         for k in 0..self.links.len() {
             let fails = if statement.clauses[k] == self.statement.clauses[k] {
@@ -164,12 +170,29 @@ impl<'b> Trial<'b> {
                     Quick::Agrees => false,
                     Quick::Differs | Quick::Error(ErrorKind::Shape) => true,
                     Quick::Elsewhere => self.link_in_full(&statement, k) != Outcome::Holds,
+                    Quick::Error(_) if self.links[k].verdict == Verdict::Undecided => true,
                     Quick::Error(_) => return None,
                 }
             };
             failing += usize::from(fails);
         }
         Some(failing)
+    }
+
+    /// The residuals of the links that fail in the original, in doubles at the solved states, for a formula with as many
+    /// links; `None` where a link or a symbol has no solved states.
+    pub fn failing_residuals(&mut self, tree: &Node) -> Option<Vec<f64>> {
+        let statement = self.source.book.statement_of(self.source.index, tree).ok()?;
+        if statement.clauses.len() != self.links.len() {
+            return None;
+        }
+        let mut all = Vec::new();
+        for (clause, link) in statement.clauses.iter().zip(&mut self.links) {
+            if link.verdict == Verdict::Fails {
+                all.extend(link.bench.as_mut()?.residuals(&self.source, clause, self.options.seed)?);
+            }
+        }
+        Some(all)
     }
 
     fn changed<'s>(&'s self, statement: &'s Statement) -> impl Iterator<Item = usize> + 's {
@@ -226,9 +249,7 @@ impl<'b> Trial<'b> {
         if !matches!(outcome, Outcome::Fails | Outcome::Misshapen) {
             outcome = self::outcome(judge(&self.options));
         }
-        // A definition that was changed, beside links that still hold.
-        let definition = self.links.iter().any(|l| l.verdict == Verdict::Definition);
-        if outcome == Outcome::Holds && definition && !self.solution { Outcome::Definition } else { outcome }
+        outcome
     }
 }
 
@@ -296,6 +317,27 @@ impl Bench {
             }
         }
         Quick::Agrees
+    }
+
+    /// The residuals at the solved states in doubles.
+    fn residuals(&mut self, source: &Source, clause: &Clause, seed: u64) -> Option<Vec<f64>> {
+        let clause = mapped(source, clause).filter(|c| !has_branches(c))?;
+        let world = &mut self.claim.world;
+        let scope = &source.book.entries[source.index].scope;
+        let link = semantics::understand(world, scope, &clause, true).ok()?;
+        let pairs = pairs(world, &link, clause.rhs == Side::Constant);
+        let outputs: Vec<_> = pairs.iter().map(|p| self.claim.premises.resolve(&mut world.graph, p.residual)).collect();
+        let tape = Tape::compile(&world.graph, &outputs);
+        if !self.cover(tape.inputs(), seed) {
+            return None;
+        }
+        let mut work = Workspace::default();
+        let mut all = Vec::new();
+        for values in &self.states {
+            let inputs: Vec<f64> = tape.inputs().iter().map(|s| values[s.index()].to_f64()).collect();
+            all.extend_from_slice(tape.eval(&inputs, &(), &mut work));
+        }
+        Some(all)
     }
 
     /// Whether the states give all these symbols; those that no premise speaks of are drawn.

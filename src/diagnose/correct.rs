@@ -20,19 +20,21 @@ use super::names::Name;
 const MOST: usize = 3;
 /// How many formulas are tried in all.
 const BUDGET: usize = 12_000;
-/// How many partly mended formulas are continued, and how often.
-const BEAM: usize = 6;
-const DEPTH: usize = 3;
+/// How many edits that mend links one by one are made.
+const DEPTH: usize = 4;
+/// The cost up to which an edit is likely enough for pairs to be tried.
+const LIKELY: u32 = 3;
 /// How many factors may be put in.
 const FACTORS: usize = 14;
 
-/// A formula some edits away from the printed one.
+/// A formula some edits away from the printed one, the last of which is kept whole.
 #[derive(Clone)]
 struct Candidate {
     tree: Node,
     edits: Vec<String>,
     cost: u32,
     failing: usize,
+    last: Option<Mutant>,
 }
 
 /// The formulas near a failing one that hold, the likeliest first; none where the equation does not fail.
@@ -50,8 +52,8 @@ pub fn suggestions(book: &Book, index: usize, judgement: &Judgement, options: &O
     let factors = factors(&blind, index, tree);
     let reach = Reach { siblings: None, factors: &factors };
     let mut search = Search { trial: &mut trial, scope: &entry.scope, reach, left: BUDGET, seen: HashSet::new() };
-    let failing = judgement.links.iter().filter(|l| l.verdict == Verdict::Fails).count().max(1);
-    let start = Candidate { tree: tree.clone(), edits: Vec::new(), cost: 0, failing };
+    let failing = judgement.links.iter().filter(|l| l.verdict > Verdict::Asymptotic).count().max(1);
+    let start = Candidate { tree: tree.clone(), edits: Vec::new(), cost: 0, failing, last: None };
     let found = search.run(start);
     let suggestion = |c: Candidate| Suggestion { latex: to_latex(&c.tree), edit: c.edits.join("; ") };
     found.into_iter().take(MOST).map(suggestion).collect()
@@ -67,42 +69,70 @@ struct Search<'t, 'b> {
 
 impl Search<'_, '_> {
     fn run(&mut self, start: Candidate) -> Vec<Candidate> {
-        let singles = self.neighbours(&start);
-        let mut found = self.confirmed(&singles);
-        let mut beam = partly(&singles, start.failing);
-        for _ in 1..DEPTH {
-            if !found.is_empty() || beam.is_empty() {
-                break;
+        let mut from = start;
+        let mut singles = self.neighbours(&from);
+        for _ in 0..DEPTH {
+            let found = self.confirmed(&singles);
+            if !found.is_empty() {
+                return found;
             }
-            let next: Vec<Candidate> = beam
-                .iter()
-                .flat_map(|c| {
-                    let all = self.neighbours(c);
-                    all.into_iter().filter(|n| n.failing < c.failing).collect::<Vec<_>>()
-                })
-                .collect();
-            found = self.confirmed(&next);
-            beam = partly(&next, usize::MAX);
+            // The likeliest of the edits that mend most links is kept.
+            let better = singles.iter().filter(|c| c.failing < from.failing);
+            let Some(best) = better.min_by_key(|c| (c.failing, c.cost)).cloned() else { break };
+            singles = self.neighbours(&best);
+            from = best;
         }
-        if found.is_empty() {
-            found = self.pairs(&singles);
-        }
-        found
+        let sums = self.sums(&from, &singles);
+        if sums.is_empty() { self.pairs(&singles) } else { sums }
     }
 
-    /// Pairs of edits, the likeliest first.
+    /// Pairs of edits in different terms: they change the residual R by the sum of their changes, so that
+    /// R₁ + R₂ - R = 0. These are looked up, not tried, and only what is found is judged.
+    fn sums(&mut self, from: &Candidate, singles: &[Candidate]) -> Vec<Candidate> {
+        let Some(own) = self.trial.failing_residuals(&from.tree) else { return Vec::new() };
+        let mut values: Vec<(Vec<f64>, &Candidate)> = Vec::new();
+        for single in singles {
+            if let Some(v) = self.trial.failing_residuals(&single.tree).filter(|v| v.len() == own.len()) {
+                values.push((v, single));
+            }
+        }
+        let size = own.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+        let mut pairs = Vec::new();
+        for (k, (v, a)) in values.iter().enumerate() {
+            for (w, b) in &values[k + 1..] {
+                let meets = |i: usize| (v[i] + w[i] - own[i]).abs() <= 1e-9 * (size + v[i].abs());
+                if (0..own.len()).all(meets) {
+                    pairs.extend(a.and(b));
+                }
+            }
+        }
+        self.confirmed(&pairs)
+    }
+
+    /// Pairs of likely edits, the likeliest and nearest to each other first.
     fn pairs(&mut self, singles: &[Candidate]) -> Vec<Candidate> {
-        let mut ordered: Vec<&Candidate> = singles.iter().collect();
-        ordered.sort_by_key(|c| c.cost);
+        let likely: Vec<&Candidate> =
+            singles.iter().filter(|c| c.last.as_ref().is_some_and(|m| cost(m.edit.kind) <= LIKELY)).collect();
+        let place = |c: &Candidate| c.last.as_ref().map_or(0, |m| m.edit.span.start);
+        let mut order: Vec<(u32, usize, usize, usize)> = Vec::new();
+        for (i, a) in likely.iter().enumerate() {
+            for (j, b) in likely.iter().enumerate().skip(i + 1) {
+                order.push((a.cost + b.cost, place(a).abs_diff(place(b)), i, j));
+            }
+        }
+        order.sort_unstable();
         let mut found = Vec::new();
-        for single in ordered {
-            if self.left == 0 || found.len() >= MOST && single.cost > 2 {
+        for (_, _, i, j) in order {
+            if self.left == 0 || found.len() >= MOST {
                 break;
             }
-            let all = self.neighbours(single);
-            found.extend(self.confirmed(&all));
+            let Some(mut pair) = likely[i].and(likely[j]) else { continue };
+            self.left -= 1;
+            if self.trial.failing_links(&pair.tree) == Some(0) {
+                pair.failing = 0;
+                found.extend(self.confirmed(&[pair]));
+            }
         }
-        found.sort_by_key(|c| (c.cost, c.tree_size()));
         found
     }
 
@@ -136,18 +166,19 @@ impl Search<'_, '_> {
     }
 }
 
-/// The best of those that mend some links.
-fn partly(candidates: &[Candidate], failing: usize) -> Vec<Candidate> {
-    let mut better: Vec<Candidate> = candidates.iter().filter(|c| c.failing < failing).cloned().collect();
-    better.sort_by_key(|c| (c.failing, c.cost));
-    better.truncate(BEAM);
-    better
-}
-
 impl Candidate {
     fn with(&self, mutant: Mutant, failing: usize) -> Candidate {
-        let edits = self.edits.iter().cloned().chain([mutant.edit.text]).collect();
-        Candidate { tree: mutant.tree, edits, cost: self.cost + cost(mutant.edit.kind), failing }
+        let edits = self.edits.iter().cloned().chain([mutant.edit.text.clone()]).collect();
+        let cost = self.cost + cost(mutant.edit.kind);
+        Candidate { tree: mutant.tree.clone(), edits, cost, failing, last: Some(mutant) }
+    }
+
+    /// Both this one's last edit and that of another neighbour of the same formula; taken to mend everything.
+    fn and(&self, other: &Candidate) -> Option<Candidate> {
+        let (own, second) = (self.last.as_ref()?, other.last.as_ref()?);
+        let tree = own.with(second)?;
+        let edits = self.edits.iter().cloned().chain([second.edit.text.clone()]).collect();
+        Some(Candidate { tree, edits, cost: self.cost + cost(second.edit.kind), failing: 0, last: None })
     }
 
     fn tree_size(&self) -> usize {

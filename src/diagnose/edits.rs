@@ -146,6 +146,7 @@ impl<'s> Walk<'s> {
                 self.raise(node, factors, *from);
             }
         }
+        self.without_differentials(node, factors);
         self.close_elsewhere(node, factors);
         self.part_squares(node, factors);
         for (k, factor) in factors.iter().enumerate() {
@@ -187,6 +188,17 @@ impl<'s> Walk<'s> {
         }
     }
 
+    /// A letter d that should not stand before a factor; only where factors may be put in.
+    fn without_differentials(&mut self, node: &Node, factors: &[Node]) {
+        for k in (0..factors.len()).filter(|k| is_letter(&factors[*k], "d") && !self.reach.factors.is_empty()) {
+            let rest: Vec<Node> = factors[..k].iter().chain(&factors[k + 1..]).cloned().collect();
+            if !rest.is_empty() {
+                let text = format!("the letter d dropped from `{}`", to_latex(node));
+                self.edit(EditKind::DropFactor, juxt(&rest, &node.span), &factors[k].span, text);
+            }
+        }
+    }
+
     /// A square that should be the product with another symbol; only where factors may be put in.
     fn part_squares(&mut self, node: &Node, factors: &[Node]) {
         if self.reach.factors.is_empty() {
@@ -222,7 +234,8 @@ impl<'s> Walk<'s> {
     }
 
     fn fraction(&mut self, node: &Node, above: &Node, below: &Node) {
-        if differential(below) {
+        // Something left over when the d is dropped is no derivative: d I_0 without an operand above.
+        if differential(below) && differential_above(above) {
             // Only what is differentiated is edited.
             if let Kind::Juxt(factors) = &above.kind {
                 self.path.push(0);
@@ -407,6 +420,15 @@ fn is_function(node: &Node) -> bool {
 /// Whether a denominator is that of a derivative.
 fn differential(below: &Node) -> bool {
     matches!(&below.kind, Kind::Juxt(factors) if is_letter(&factors[0], "d") || is_letter(&factors[0], "\\partial"))
+}
+
+/// Whether a numerator is that of a derivative: d, or d with what is differentiated.
+fn differential_above(above: &Node) -> bool {
+    let is_d = |n: &Node| is_letter(n, "d") || is_letter(n, "\\partial");
+    match &above.kind {
+        Kind::Juxt(factors) => factors.first().is_some_and(is_d),
+        _ => is_d(above),
+    }
 }
 
 fn is_letter(node: &Node, letter: &str) -> bool {

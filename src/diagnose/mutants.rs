@@ -10,7 +10,7 @@ use crate::latex::ast::{Node, Span};
 use crate::latex::to_latex;
 use crate::semantics::Scope;
 
-use super::edits::Walk;
+use super::edits::{Found, Walk};
 
 /// What an edit changes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash)]
@@ -63,6 +63,17 @@ pub struct Mutant {
     pub tree: Node,
     /// The edit.
     pub edit: Edit,
+    /// Where in the tree, child by child from the root, and what was put there.
+    pub(super) path: Vec<usize>,
+    pub(super) node: Node,
+}
+
+impl Mutant {
+    /// The formula with both this edit and another one of the same formula; `None` where one lies within the other.
+    pub fn with(&self, other: &Mutant) -> Option<Node> {
+        let apart = !self.path.starts_with(&other.path) && !other.path.starts_with(&self.path);
+        apart.then(|| replaced_at(&self.tree, &other.path, &other.node))
+    }
 }
 
 /// How far the edits go.
@@ -84,10 +95,10 @@ pub fn mutants(tree: &Node, scope: &Scope, reach: Reach) -> Vec<Mutant> {
     let mut walk = Walk::new(scope, reach);
     walk.visit(tree);
     let mut seen: HashSet<String> = HashSet::from([to_latex(tree)]);
-    let mutated = walk
-        .found
-        .into_iter()
-        .map(|found| Mutant { tree: replaced_at(tree, &found.path, &found.node), edit: found.edit });
+    let mutated = walk.found.into_iter().map(|Found { path, node, edit }| {
+        let tree = replaced_at(tree, &path, &node);
+        Mutant { tree, edit, path, node }
+    });
     mutated.filter(|m| seen.insert(to_latex(&m.tree))).collect()
 }
 

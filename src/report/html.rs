@@ -16,6 +16,8 @@ const TEMPLATES: [(&str, &str); 11] = [
     ("counterexample.html", include_str!("../../templates/counterexample.html")),
     ("order.html", include_str!("../../templates/order.html")),
     ("chart.html", include_str!("../../templates/chart.html")),
+    ("diagnosis.html", include_str!("../../templates/diagnosis.html")),
+    ("survivors.html", include_str!("../../templates/survivors.html")),
     ("legend.html", include_str!("../../templates/legend.html")),
 ];
 

@@ -14,6 +14,7 @@ pub mod terminal;
 mod text;
 mod view;
 mod view_charts;
+mod view_diagnosis;
 
 pub use charts::Chart;
 pub use counts::Counts;

@@ -2,7 +2,7 @@
 
 use super::text::{duration, reason, symbol, word};
 use super::{Counts, Options, Run, counts};
-use crate::check::verdict::{DocumentReport, Judgement, Verdict};
+use crate::check::verdict::{DocumentReport, Judgement, Sensitivity, Verdict};
 use std::fmt::Write;
 
 /// The summary: for each document the counts, then each equation that fails, cannot be decided or read, or is not as
@@ -45,6 +45,7 @@ fn summarize(text: &mut String, document: &DocumentReport, paint: Paint) -> std:
     for judgement in document.equations.iter().filter(|j| is_shown(j)) {
         line(text, document, judgement, paint)?;
     }
+    mutants(text, document)?;
     writeln!(text)
 }
 
@@ -81,6 +82,26 @@ fn line(text: &mut String, document: &DocumentReport, j: &Judgement, paint: Pain
         writeln!(text, "      should read  {}  ({verdict})", one_line(&correction.latex))?;
     } else if let Some(c) = &j.counterexample {
         writeln!(text, "      for example  {}  against  {}", c.lhs, c.rhs)?;
+    }
+    for suggestion in &j.suggestions {
+        writeln!(text, "      perhaps  {}  ({})", one_line(&suggestion.latex), one_line(&suggestion.edit))?;
+    }
+    Ok(())
+}
+
+/// How many mutants the checks let pass, and where.
+fn mutants(text: &mut String, document: &DocumentReport) -> std::fmt::Result {
+    let all: Vec<_> = document.equations.iter().filter_map(|j| j.sensitivity.as_ref().map(|s| (j, s))).collect();
+    if all.is_empty() {
+        return Ok(());
+    }
+    let sum = |count: fn(&Sensitivity) -> usize| all.iter().map(|(_, s)| count(s)).sum::<usize>();
+    let (killed, different) = (sum(|s| s.killed), sum(|s| s.total - s.equivalent));
+    writeln!(text, "  {killed} of {different} mutants that say something else fail")?;
+    for (j, s) in all.iter().filter(|(_, s)| !s.survivors.is_empty()) {
+        let edits: Vec<String> = s.survivors.iter().take(3).map(|e| one_line(e)).collect();
+        let more = if s.survivors.len() > 3 { " ..." } else { "" };
+        writeln!(text, "  ({}) lets {} pass: {}{more}", one_line(&j.label), s.survivors.len(), edits.join("; "))?;
     }
     Ok(())
 }

@@ -5,7 +5,7 @@
 
 use super::math::Renderer;
 use super::text::{duration, language, number, strength, symbol, word};
-use super::{Counts, Options, Run, diff, text, view_charts};
+use super::{Counts, Options, Run, diff, text, view_charts, view_diagnosis};
 use crate::check::verdict::{Correction, Counterexample, DocumentReport, Judgement, LinkJudgement, Order, Verdict};
 use serde::Serialize;
 use std::collections::{HashMap, HashSet};
@@ -20,6 +20,8 @@ pub(super) struct Page {
     counts: Counts,
     errata: Vec<Equation>,
     attention: Vec<Equation>,
+    /// Those whose checks let a mutant pass.
+    insensitive: Vec<Equation>,
     documents: Vec<Document>,
     charts: Vec<view_charts::View>,
 }
@@ -88,6 +90,7 @@ struct Equation {
     correction: Option<CorrectionView>,
     expected: Option<&'static str>,
     as_expected: bool,
+    diagnosis: view_diagnosis::Diagnosis,
 }
 
 #[derive(Clone, Serialize)]
@@ -163,6 +166,7 @@ pub(super) fn page(run: &Run, options: Options) -> Page {
         counts: Counts::of(judged()),
         errata: all().filter(|e| e.erratum).cloned().collect(),
         attention: all().filter(attention).cloned().collect(),
+        insensitive: all().filter(|e| !e.diagnosis.survivors_html.is_empty()).cloned().collect(),
         charts: run.charts.iter().map(|c| view_charts::view(c, &builder.renderer)).collect(),
         documents,
     }
@@ -265,6 +269,7 @@ impl Builder {
             correction,
             expected: j.expect.map(word),
             as_expected: j.as_expected,
+            diagnosis: view_diagnosis::view(j, &self.renderer),
         }
     }
 

@@ -1,0 +1,52 @@
+//! The diagnosis for the templates: sensitivity, survivors, suggestions.
+
+use super::math::Renderer;
+use crate::check::verdict::{Judgement, Sensitivity};
+use serde::Serialize;
+
+/// A formula that was probably meant.
+#[derive(Clone, Serialize)]
+pub(super) struct SuggestionView {
+    math_html: String,
+    edit_html: String,
+    latex: String,
+}
+
+/// What an equation's diagnosis says.
+#[derive(Clone, Serialize)]
+pub(super) struct Diagnosis {
+    /// One line on the mutants.
+    sensitivity: Option<String>,
+    pub(super) survivors_html: Vec<String>,
+    suggestions: Vec<SuggestionView>,
+}
+
+pub(super) fn view(j: &Judgement, renderer: &Renderer) -> Diagnosis {
+    let words = |edit: &String| renderer.prose(&edit.replace('`', "$"));
+    let survivors = j.sensitivity.iter().flat_map(|s| &s.survivors);
+    let suggestion = |s: &crate::check::verdict::Suggestion| SuggestionView {
+        math_html: renderer.display(&s.latex),
+        edit_html: words(&s.edit),
+        latex: s.latex.clone(),
+    };
+    Diagnosis {
+        sensitivity: j.sensitivity.as_ref().map(sentence),
+        survivors_html: survivors.map(words).collect(),
+        suggestions: j.suggestions.iter().map(suggestion).collect(),
+    }
+}
+
+/// `41 of 44 mutants fail, 2 say the same, 1 passes`
+pub(super) fn sentence(s: &Sensitivity) -> String {
+    let mut text = format!("{} of {} mutants fail", s.killed, s.total);
+    if s.equivalent > 0 {
+        text.push_str(&format!(", {} say the same", s.equivalent));
+    }
+    if s.undecided > 0 {
+        text.push_str(&format!(", {} cannot be evaluated", s.undecided));
+    }
+    if !s.survivors.is_empty() {
+        text.push_str(&format!(", {} pass", s.survivors.len()));
+    }
+    text
+}
