@@ -4,7 +4,7 @@ pub mod diff;
 mod display;
 pub mod graph;
 mod magnitude;
-mod ratio;
+pub(crate) mod ratio;
 mod rewrite;
 pub mod tape;
 

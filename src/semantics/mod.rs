@@ -16,6 +16,7 @@ mod juxtaposition;
 mod name;
 mod scope;
 mod statement;
+pub mod units;
 mod value;
 mod world;
 
@@ -28,4 +29,4 @@ pub use statement::{
     statement, understand,
 };
 pub use value::{Matrix, Value};
-pub use world::{Facts, World};
+pub use world::{Facts, Joint, Quantity, Role, World};
