@@ -4,6 +4,7 @@ mod book;
 mod choice;
 mod claim;
 mod decide;
+pub mod dimension;
 pub mod inspect;
 mod judge;
 mod newton;
