@@ -6,6 +6,7 @@ use std::time::Instant;
 
 use rayon::prelude::*;
 
+use crate::check::dimension::Survey;
 use crate::check::verdict::{DocumentReport, Judgement, Verdict};
 use crate::check::{self, Book, Options};
 use crate::diagnose::{correct, sensitivity};
@@ -59,13 +60,18 @@ pub fn documents(paths: &[PathBuf]) -> Result<Vec<Document>, ReadError> {
 /// Judges a document's equations, each on its own: one that panics costs no other. `judged` is called after each.
 pub fn verify(document: Document, request: &Request, judged: &(dyn Fn() + Sync)) -> Verified {
     let book = Book::new(&document);
+    let survey = catch_unwind(AssertUnwindSafe(|| Survey::new(&book))).ok();
     let wanted: Vec<usize> = (0..book.entries.len())
         .filter(|k| request.only.is_empty() || request.only.contains(&book.entries[*k].equation.label))
         .collect();
     let judge = |index: &usize| {
         let outcome = catch_unwind(AssertUnwindSafe(|| judged_and_diagnosed(&book, *index, request)));
+        let mut judgement = outcome.unwrap_or_else(|_| broken(&book, *index));
+        if let Some(survey) = &survey {
+            survey.judge(*index).report(&mut judgement);
+        }
         judged();
-        outcome.unwrap_or_else(|_| broken(&book, *index))
+        judgement
     };
     let equations = wanted.par_iter().map(judge).collect();
     let problems: Vec<document::Problem> = document.problems.iter().chain(&book.problems).cloned().collect();
@@ -74,6 +80,7 @@ pub fn verify(document: Document, request: &Request, judged: &(dyn Fn() + Sync))
         path: document.path.display().to_string(),
         title: document.title.clone(),
         problems: problems.iter().map(|p| p.to_text(&document)).collect(),
+        inferred: survey.map(|s| s.inferred()).unwrap_or_default(),
         equations,
     };
     Verified { document, problems, report }

@@ -12,7 +12,7 @@ use super::claim::{Claim, Obstacle, Source, obstacle_text, unclear_text};
 use super::decide;
 use super::order;
 use super::trouble;
-use super::verdict::{Correction, Judgement, LinkJudgement, Strength, Verdict};
+use super::verdict::{Correction, DimensionStatus, Judgement, LinkJudgement, Strength, Verdict};
 
 /// What the checker is asked for.
 #[derive(Clone, Debug)]
@@ -81,6 +81,8 @@ pub fn blank(book: &Book, index: usize) -> Judgement {
         links: Vec::new(),
         counterexample: None,
         correction: None,
+        dimension: DimensionStatus::Unchecked,
+        dimension_findings: Vec::new(),
         expect: annotation.and_then(|a| a.expect.as_ref()).and_then(|e| expected(&e.value)),
         as_expected: false,
         sensitivity: None,

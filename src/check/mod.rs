@@ -4,6 +4,7 @@ mod book;
 mod choice;
 mod claim;
 mod decide;
+pub mod dimension;
 mod elimination;
 pub mod exact;
 pub mod inspect;

@@ -89,6 +89,55 @@ pub struct Order {
     pub residuals: Vec<(f64, f64)>,
 }
 
+/// Whether the terms of an equation have one dimension. It is a finding of its own and decides no verdict.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+#[serde(rename_all = "lowercase")]
+pub enum DimensionStatus {
+    /// They have.
+    Ok,
+    /// Not checked: a unit is not declared and fits whatever it must, or there is nothing to compare.
+    Unchecked,
+    /// They have not.
+    Mismatch,
+}
+
+/// Terms that should have one dimension and have not.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct DimensionFinding {
+    /// What is found, in a sentence, LaTeX between dollars.
+    pub message: String,
+    /// The relation in which it is found.
+    pub link: String,
+    /// The terms with their dimensions, in the order of printing.
+    pub terms: Vec<TermDimension>,
+    /// The dimension of those that stand out, where there are two.
+    pub found: Option<String>,
+    /// The dimension of the others.
+    pub expected: Option<String>,
+    /// Factors of declared symbols that would mend the terms that stand out, the likeliest first.
+    pub factors: Vec<String>,
+}
+
+/// A term with its dimension.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct TermDimension {
+    /// Its LaTeX, without the sign.
+    pub latex: String,
+    /// Its dimension: `kg m² s⁻¹`.
+    pub dimension: String,
+}
+
+/// A dimension that no unit declares and the equations determine.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct InferredDimension {
+    /// The symbol's LaTeX, `#` for an index.
+    pub symbol: String,
+    /// Its dimension.
+    pub dimension: String,
+    /// The label of the equation that determined it.
+    pub from: String,
+}
+
 /// The judgement on one link of a chain.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct LinkJudgement {
@@ -200,6 +249,10 @@ pub struct Judgement {
     pub counterexample: Option<Counterexample>,
     /// What it should read.
     pub correction: Option<Correction>,
+    /// Whether its terms have one dimension.
+    pub dimension: DimensionStatus,
+    /// Where they have not.
+    pub dimension_findings: Vec<DimensionFinding>,
     /// What the annotation expects, where it does (`fails`).
     pub expect: Option<Verdict>,
     /// Whether the verdict is as expected.
@@ -252,6 +305,8 @@ pub struct DocumentReport {
     pub title: String,
     /// Problems of the document that belong to no equation (an unclosed display, a directive that does not parse).
     pub problems: Vec<String>,
+    /// The dimensions that were inferred.
+    pub inferred: Vec<InferredDimension>,
     /// The judgements in order.
     pub equations: Vec<Judgement>,
 }

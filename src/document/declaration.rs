@@ -2,6 +2,7 @@
 //!
 //! ```toml
 //! assume = ['\theta > 0']          # LaTeX premises that hold in the section
+//! natural_units = true            # no constant has a dimension here: dimensions are not checked
 //! [symbols]
 //! 'I_0, I_1' = { unit = "kg m^2", range = [0.3, 3.0] }
 //! '\theta'   = { unit = "rad", of = "t", range = [0.2, 1.4] }
@@ -30,6 +31,8 @@ pub struct Declarations {
     pub bases: Vec<BasisDeclaration>,
     /// LaTeX premises.
     pub assume: Vec<Spanned<String>>,
+    /// Whether the section is written in natural units (c = 1, or g = l = 1), where dimensions say nothing.
+    pub natural_units: Option<bool>,
 }
 
 /// What one or several symbols are.
@@ -97,7 +100,7 @@ pub struct BasisDeclaration {
     pub span: Span,
 }
 
-pub(super) const KEYS: [&str; 3] = ["symbols", "basis", "assume"];
+pub(super) const KEYS: [&str; 4] = ["symbols", "basis", "assume", "natural_units"];
 
 const SYMBOL_KEYS: [&str; 13] = [
     "unit",
@@ -125,6 +128,7 @@ pub(super) fn declarations(table: &Table, span: Span, reader: &mut Reader) -> De
             "symbols" => found.symbols = symbols(key, value, reader),
             "basis" => found.bases = bases(key, value, reader),
             "assume" => found.assume = reader.texts(key, value),
+            "natural_units" => found.natural_units = Some(reader.bool(key, value)),
             _ => {}
         }
     }

@@ -5,7 +5,7 @@ mod display;
 pub mod field;
 pub mod graph;
 mod magnitude;
-mod ratio;
+pub(crate) mod ratio;
 mod rewrite;
 pub mod tape;
 

@@ -2,7 +2,7 @@
 //! does not fit, or does not exist.
 
 /// Numerator and denominator.
-pub(super) type Ratio = (i128, i128);
+pub(crate) type Ratio = (i128, i128);
 
 fn gcd(mut a: u128, mut b: u128) -> u128 {
     while b != 0 {
@@ -12,7 +12,7 @@ fn gcd(mut a: u128, mut b: u128) -> u128 {
 }
 
 /// `n/d` in lowest terms.
-pub(super) fn reduce(n: i128, d: i128) -> Option<Ratio> {
+pub(crate) fn reduce(n: i128, d: i128) -> Option<Ratio> {
     if d == 0 {
         return None;
     }
@@ -24,35 +24,35 @@ pub(super) fn reduce(n: i128, d: i128) -> Option<Ratio> {
     if d < 0 { Some((n.checked_neg()?, d.checked_neg()?)) } else { Some((n, d)) }
 }
 
-pub(super) fn neg((n, d): Ratio) -> Option<Ratio> {
+pub(crate) fn neg((n, d): Ratio) -> Option<Ratio> {
     Some((n.checked_neg()?, d))
 }
 
-pub(super) fn add((a, b): Ratio, (c, d): Ratio) -> Option<Ratio> {
+pub(crate) fn add((a, b): Ratio, (c, d): Ratio) -> Option<Ratio> {
     let g = i128::try_from(gcd(b.unsigned_abs(), d.unsigned_abs())).ok()?;
     let n = a.checked_mul(d / g)?.checked_add(c.checked_mul(b / g)?)?;
     reduce(n, b.checked_mul(d / g)?)
 }
 
-pub(super) fn mul((a, b): Ratio, (c, d): Ratio) -> Option<Ratio> {
+pub(crate) fn mul((a, b): Ratio, (c, d): Ratio) -> Option<Ratio> {
     // Cancelling crosswise first keeps the products as small as they can be.
     let (a, d) = reduce(a, d)?;
     let (c, b) = reduce(c, b)?;
     Some((a.checked_mul(c)?, b.checked_mul(d)?))
 }
 
-pub(super) fn recip((n, d): Ratio) -> Option<Ratio> {
+pub(crate) fn recip((n, d): Ratio) -> Option<Ratio> {
     reduce(d, n)
 }
 
-pub(super) fn powi(x: Ratio, n: i32) -> Option<Ratio> {
+pub(crate) fn powi(x: Ratio, n: i32) -> Option<Ratio> {
     let (a, b) = if n < 0 { recip(x)? } else { x };
     let n = n.unsigned_abs();
     Some((a.checked_pow(n)?, b.checked_pow(n)?))
 }
 
 /// The square root where it is rational.
-pub(super) fn sqrt((n, d): Ratio) -> Option<Ratio> {
+pub(crate) fn sqrt((n, d): Ratio) -> Option<Ratio> {
     let root = |x: i128| {
         let r = u128::try_from(x).ok()?.isqrt();
         (r.checked_mul(r)? == x.unsigned_abs()).then_some(r as i128) // a root of an i128 fits an i128

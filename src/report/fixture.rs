@@ -3,7 +3,8 @@
 use super::{Chart, Run, charts};
 use crate::check::exact::Exact;
 use crate::check::verdict::{
-    Assignment, Correction, Counterexample, DocumentReport, Judgement, LinkJudgement, Order, Strength, Verdict,
+    Assignment, Correction, Counterexample, DimensionFinding, DimensionStatus, DocumentReport, InferredDimension,
+    Judgement, LinkJudgement, Order, Strength, TermDimension, Verdict,
 };
 
 /// A link with a verdict and nothing else.
@@ -58,6 +59,8 @@ pub(super) fn judgement(label: &str, kind: &str, link: LinkJudgement) -> Judgeme
         counterexample: link.counterexample.clone(),
         links: vec![link],
         correction: None,
+        dimension: DimensionStatus::Unchecked,
+        dimension_findings: Vec::new(),
         expect: None,
         as_expected: true,
         sensitivity: None,
@@ -85,12 +88,29 @@ fn erratum() -> Judgement {
         counterexample: Some(counterexample),
         ..link(r"\dot{\varphi} = \frac{L_z - I_1 \Omega \cos \theta}{I_0 \sin \theta}", Verdict::Fails)
     };
+    let term = |latex: &str, dimension: &str| TermDimension { latex: latex.into(), dimension: dimension.into() };
+    let finding = DimensionFinding {
+        message: r"the term $L_z$ has the dimension kg m² s⁻¹, the other s⁻¹; a factor $\frac{1}{I_0}$ would mend it"
+            .into(),
+        link: failing.latex.clone(),
+        terms: vec![term(r"\Omega", "s⁻¹"), term("L_z", "kg m² s⁻¹")],
+        found: Some("kg m² s⁻¹".into()),
+        expected: Some("s⁻¹".into()),
+        factors: vec![r"\frac{1}{I_0}".into()],
+    };
     let mended = r"\dot{\varphi} = \frac{L_z - I_1 \Omega \cos \theta}{I_0 \sin^2 \theta}";
     Judgement {
         given: vec!["1".into(), "99".into()],
         assumptions: vec![r"\sin\theta \ne 0".into()],
         reason: Some(r"the square of $\sin\theta$ is missing".into()),
-        correction: Some(Correction { latex: mended.into(), verdict: Verdict::Holds, links: vec![agreeing(mended)], problem: None }),
+        correction: Some(Correction {
+            latex: mended.into(),
+            verdict: Verdict::Holds,
+            links: vec![agreeing(mended)],
+            problem: None,
+        }),
+        dimension: DimensionStatus::Mismatch,
+        dimension_findings: vec![finding],
         expect: Some(Verdict::Fails),
         ..judgement("56", "derived", failing)
     }
@@ -184,6 +204,11 @@ pub(super) fn run() -> Run {
         name: "gyroscope".into(),
         path: "notes/gyroscope.md".into(),
         title: "ジャイロスコープ & <tops>".into(),
+        inferred: vec![InferredDimension {
+            symbol: "L'_{\\xi}".into(),
+            dimension: "kg m² s⁻¹".into(),
+            from: "16".into(),
+        }],
         problems: vec!["line 7: a display is not closed: `$$ a`".into()],
         equations,
     };
@@ -192,6 +217,7 @@ pub(super) fn run() -> Run {
         path: "notes/empty.md".into(),
         title: "Empty".into(),
         problems: Vec::new(),
+        inferred: Vec::new(),
         equations: Vec::new(),
     };
     Run { seed: 42, states: 64, precision: None, documents: vec![first, empty], charts: vec![chart()], micros: 31_400 }

@@ -5,7 +5,7 @@ use tera::{Context, Tera};
 
 /// The templates by the names under which they include each other. The names end in `.html`, so what they are given is
 /// escaped.
-const TEMPLATES: [(&str, &str); 11] = [
+const TEMPLATES: [(&str, &str); 13] = [
     ("report.html", include_str!("../../templates/report.html")),
     ("summary.html", include_str!("../../templates/summary.html")),
     ("map.html", include_str!("../../templates/map.html")),

@@ -8,8 +8,9 @@ use super::error::{Error, Result};
 use super::juxtaposition::Item;
 use super::name::spelling;
 use super::scope::Basis;
+use super::units::Dimension;
 use super::value::{self, Matrix, Value};
-use super::world::Facts;
+use super::world::{Facts, Quantity};
 
 /// A derivative written as a fraction.
 pub(super) struct Derivative {
@@ -84,7 +85,11 @@ impl Elaborator<'_> {
 
     /// `dx`: the differential of what follows, its time derivative times `dt`.
     pub(super) fn differential(&mut self, operand: &Node) -> Result<Typed> {
-        let dt = self.world.symbol("dt", false, || Facts { tex: "dt".into(), ..Facts::default() });
+        let dt = self.world.symbol("dt", false, || Facts {
+            tex: "dt".into(),
+            quantity: Some(Quantity::of(Dimension::TIME)),
+            ..Facts::default()
+        });
         let dt = self.world.graph.sym(dt);
         if spelling(operand) == "t" {
             return Ok(Typed::new(Value::Scalar(dt), "dt"));
@@ -146,7 +151,8 @@ impl Elaborator<'_> {
                     let id = self.world.symbol(&tex.clone(), true, || Facts {
                         tex,
                         range: Some([0.3, 1.2]),
-                        integer: false,
+                        quantity: Some(Quantity::of(Dimension::NONE)),
+                        ..Facts::default()
                     });
                     self.world.graph.sym(id)
                 }

@@ -2,12 +2,13 @@
 
 use crate::expr::{Expr, Func, SymId};
 use crate::latex::ast::{Delim, Kind, MatrixEnv, Node, Sign, Span, Term};
+use crate::latex::to_latex;
 
 use super::error::{Error, Result};
 use super::name::spelling;
 use super::scope::{Entry, EntryKind, Scope, pattern};
 use super::value::{self, Matrix, Value};
-use super::world::{Facts, World};
+use super::world::{Facts, Joint, Quantity, Role, World};
 
 /// A value with the way it was read, every operation in brackets.
 #[derive(Clone, Debug)]
@@ -80,8 +81,10 @@ impl<'w> Elaborator<'w> {
 
     fn terms(&mut self, terms: &[Term]) -> Result<Typed> {
         let mut sum: Option<Typed> = None;
+        let mut values = Vec::with_capacity(terms.len());
         for term in terms {
             let next = self.value(&term.node)?;
+            values.push(next.value.clone());
             let minus = match term.sign {
                 Sign::Plus => false,
                 Sign::Minus => true,
@@ -101,6 +104,8 @@ impl<'w> Elaborator<'w> {
             });
         }
         let sum = sum.ok_or_else(|| Error::unsupported("an empty sum", &(0..0)))?;
+        let parts = || terms.iter().map(|t| to_latex(&t.node)).zip(values).collect();
+        self.world.join(|| Joint { role: Role::Sum, parts: parts() });
         Ok(if terms.len() > 1 { Typed::new(sum.value, format!("({})", sum.text)) } else { sum })
     }
 
@@ -329,7 +334,9 @@ impl<'w> Elaborator<'w> {
     }
 
     fn scalar_symbol(&mut self, entry: &Entry, name: &str, tex: String) -> Expr {
-        let facts = || Facts { tex, range: entry.range, integer: entry.integer };
+        let quantity =
+            || Quantity { name: entry.pattern.clone(), declared: entry.declared, dimension: entry.dimension };
+        let facts = || Facts { tex, range: entry.range, integer: entry.integer, quantity: Some(quantity()) };
         let id: SymId = self.world.symbol(name, entry.of_t, facts);
         self.world.graph.sym(id)
     }
@@ -353,6 +360,7 @@ impl<'w> Elaborator<'w> {
         }
         let exponent = self.value(sup)?;
         let n = self.scalar(&exponent, &sup.span)?;
+        self.world.join(|| Joint { role: Role::Exponent, parts: vec![(to_latex(sup), exponent.value.clone())] });
         let graph = &mut self.world.graph;
         let integer = graph.as_rational(n).filter(|(_, d)| *d == 1).and_then(|(n, _)| i32::try_from(n).ok());
         let value = match (&base.value, integer) {

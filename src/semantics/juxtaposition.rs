@@ -14,11 +14,13 @@
 
 use crate::expr::Func;
 use crate::latex::ast::{BigOp, Kind, Node, ProductOp, Span};
+use crate::latex::to_latex;
 
 use super::calculus::Derivative;
 use super::elaborate::{Elaborator, Typed};
 use super::error::{Error, Result};
 use super::value::{self, Value};
+use super::world::{Joint, Role};
 
 /// A product laid flat.
 #[derive(Clone, Copy)]
@@ -216,6 +218,10 @@ impl Elaborator<'_> {
             return Err(Error::unsupported(format!("\\{name} has no argument here"), &node.span));
         }
         let argument = self.items(&rest[..used])?;
+        self.world.join(|| Joint {
+            role: Role::Argument(name.to_owned()),
+            parts: vec![(latex_of(&rest[..used]), argument.value.clone())],
+        });
         let inverse = matches!(sup.map(|s| &s.kind), Some(Kind::Sum(t)) if t.len() == 1 && is_minus_one(&t[0]));
         let name = if inverse { format!("arc{name}") } else { name.to_owned() };
         let result = self.call(&name, argument, &node.span)?;
@@ -333,6 +339,18 @@ impl Elaborator<'_> {
             }
             None => Err(Error::unsupported("this sum runs over nothing", &node.span)),
         }
+    }
+}
+
+/// The LaTeX of some factors.
+fn latex_of(items: &[Item]) -> String {
+    let factors = items.iter().filter_map(|item| match item {
+        Item::Factor(n) => Some((*n).clone()),
+        Item::Op(..) => None,
+    });
+    match factors.collect::<Vec<_>>() {
+        factors if factors.len() == 1 => to_latex(&factors[0]),
+        factors => to_latex(&Node::new(Kind::Juxt(factors), span_of(items))),
     }
 }
 

@@ -16,6 +16,8 @@ mod juxtaposition;
 mod name;
 mod scope;
 mod statement;
+mod terms;
+pub mod units;
 mod value;
 mod world;
 
@@ -27,5 +29,6 @@ pub use statement::{
     Clause, Instance, Side, Statement, TypedLink, begins_with_relation, has_branches, mentions, relation_latex,
     statement, understand,
 };
+pub use terms::{PrintedTerm, printed_terms};
 pub use value::{Matrix, Value};
-pub use world::{Facts, World};
+pub use world::{Facts, Joint, Quantity, Role, World};

@@ -8,6 +8,7 @@ use crate::latex;
 use crate::latex::ast::{Kind, Node};
 
 use super::name::{nearest, spelling, spelling_with};
+use super::units::{self, Dimension};
 
 /// What a declared symbol is.
 #[derive(Clone, Debug, PartialEq)]
@@ -65,6 +66,10 @@ pub struct Entry {
     pub range: Option<[f64; 2]>,
     /// Its unit.
     pub unit: Option<String>,
+    /// The dimension of its unit.
+    pub dimension: Option<Dimension>,
+    /// Where it is declared, in bytes of the file: tells it from another symbol of the same spelling elsewhere.
+    pub declared: usize,
     /// Whether it takes integers only.
     pub integer: bool,
 }
@@ -105,17 +110,21 @@ pub struct Scope {
     bases: Vec<Arc<Basis>>,
     /// Premises that hold throughout the section, in LaTeX with their place in the file.
     pub assume: Vec<Spanned<String>>,
+    /// Whether the section is written in natural units, so that dimensions say nothing.
+    pub natural_units: bool,
 }
 
 impl Scope {
+    /// All entries, in the order of their spelling.
+    pub fn entries(&self) -> impl Iterator<Item = &Entry> {
+        let mut entries: Vec<&Entry> = self.entries.values().map(Arc::as_ref).collect();
+        entries.sort_by(|a, b| a.pattern.cmp(&b.pattern));
+        entries.into_iter()
+    }
+
     /// The entry of a canonical spelling.
     pub fn get(&self, pattern: &str) -> Option<&Entry> {
         self.entries.get(pattern).map(Arc::as_ref)
-    }
-
-    /// All entries, in no order.
-    pub fn entries(&self) -> impl Iterator<Item = &Entry> {
-        self.entries.values().map(Arc::as_ref)
     }
 
     /// The bases, those declared last first.
@@ -163,6 +172,7 @@ impl Scope {
             self.declare_symbol(symbol, &mut problems);
         }
         self.assume.extend(block.assume.iter().cloned());
+        self.natural_units = block.natural_units.unwrap_or(self.natural_units);
         problems
     }
 
@@ -198,6 +208,7 @@ impl Scope {
     pub fn declare_symbol(&mut self, d: &SymbolDeclaration, problems: &mut Vec<Problem>) {
         let each: Vec<String> =
             d.each.iter().filter_map(|i| parse_name(i, problems)).map(|node| spelling(&node)).collect();
+        let dimension = d.unit.as_ref().and_then(|unit| parse_unit(unit, problems));
         for (position, name) in d.names.iter().enumerate() {
             let Some(node) = parse_name(name, problems) else { continue };
             let pattern = pattern(&node, &|letter| each.iter().any(|e| e == letter));
@@ -208,6 +219,8 @@ impl Scope {
                 of_t: d.of.is_some(),
                 range: d.range,
                 unit: d.unit.as_ref().map(|u| u.value.clone()),
+                dimension,
+                declared: name.span.start,
                 integer: d.integer,
             };
             self.insert(pattern, entry);
@@ -231,7 +244,16 @@ impl Scope {
 impl Entry {
     /// A constant scalar of which nothing is known.
     fn plain() -> Entry {
-        Entry { pattern: String::new(), kind: EntryKind::Scalar, of_t: false, range: None, unit: None, integer: false }
+        Entry {
+            pattern: String::new(),
+            kind: EntryKind::Scalar,
+            of_t: false,
+            range: None,
+            unit: None,
+            dimension: None,
+            declared: 0,
+            integer: false,
+        }
     }
 }
 
@@ -290,6 +312,21 @@ fn parse_name(text: &Spanned<String>, problems: &mut Vec<Problem>) -> Option<Nod
                 None => problem,
             };
             problems.push(problem);
+            None
+        }
+    }
+}
+
+/// Reads the unit of a declaration.
+fn parse_unit(unit: &Spanned<String>, problems: &mut Vec<Problem>) -> Option<Dimension> {
+    match units::parse(&unit.value) {
+        Ok(dimension) => Some(dimension),
+        Err(error) => {
+            let problem = Problem::error("kenzan::unit", error.message, unit.place(error.span));
+            problems.push(match error.help {
+                Some(help) => problem.help(help),
+                None => problem,
+            });
             None
         }
     }

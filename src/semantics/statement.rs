@@ -335,7 +335,7 @@ fn meet(elaborator: &mut Elaborator, lhs: Value, rhs: Value, clause: &Clause) ->
 }
 
 /// All assignments of values to indices; one empty assignment where there are none.
-fn assignments(scope: &Scope, letters: &[String]) -> Vec<Vec<(String, i64)>> {
+pub(super) fn assignments(scope: &Scope, letters: &[String]) -> Vec<Vec<(String, i64)>> {
     let mut all = vec![Vec::new()];
     for letter in letters {
         let Some((from, to)) = scope.index(letter) else { continue };

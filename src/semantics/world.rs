@@ -4,6 +4,9 @@ use std::collections::HashMap;
 
 use crate::expr::{Expr, Graph, SymId};
 
+use super::units::Dimension;
+use super::value::Value;
+
 /// What is known of a symbol of the graph.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Facts {
@@ -13,6 +16,46 @@ pub struct Facts {
     pub range: Option<[f64; 2]>,
     /// Whether it takes integers only.
     pub integer: bool,
+    /// The quantity it is, where it is one.
+    pub quantity: Option<Quantity>,
+}
+
+/// A physical quantity: what a declaration speaks of, of which vectors and families have many symbols.
+#[derive(Clone, Debug, PartialEq, Eq, Hash)]
+pub struct Quantity {
+    /// The declared name.
+    pub name: String,
+    /// Where it is declared, in bytes of the file.
+    pub declared: usize,
+    /// The dimension of the declared unit.
+    pub dimension: Option<Dimension>,
+}
+
+impl Quantity {
+    /// A quantity of this dimension that no declaration speaks of.
+    pub(super) fn of(dimension: Dimension) -> Self {
+        Quantity { name: String::new(), declared: 0, dimension: Some(dimension) }
+    }
+}
+
+/// Values that a formula joins, so that they must have one dimension, each with its LaTeX.
+#[derive(Clone, Debug)]
+pub struct Joint {
+    /// What joins them.
+    pub role: Role,
+    /// The values joined.
+    pub parts: Vec<(String, Value)>,
+}
+
+/// What joins the values of a [`Joint`].
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Role {
+    /// They are terms of a sum.
+    Sum,
+    /// It is the argument of a function, and must be a number.
+    Argument(String),
+    /// It is an exponent, and must be a number.
+    Exponent,
 }
 
 /// One equation's graph and its symbols. Symbols are identified by their names, so an equation and its premises speak
@@ -23,12 +66,30 @@ pub struct World {
     pub graph: Graph,
     facts: HashMap<SymId, Facts>,
     triads: HashMap<String, [[Expr; 3]; 3]>,
+    joints: Option<Vec<Joint>>,
 }
 
 impl World {
     /// An empty world.
     pub fn new() -> Self {
         World::default()
+    }
+
+    /// An empty world that takes down which values the formulas join.
+    pub fn with_joints() -> Self {
+        World { joints: Some(Vec::new()), ..World::default() }
+    }
+
+    /// The joints taken down since they were last taken, inner ones before those around them.
+    pub fn take_joints(&mut self) -> Vec<Joint> {
+        self.joints.as_mut().map(std::mem::take).unwrap_or_default()
+    }
+
+    /// Takes down a joint, if joints are taken down here.
+    pub(super) fn join(&mut self, joint: impl FnOnce() -> Joint) {
+        if let Some(joints) = &mut self.joints {
+            joints.push(joint());
+        }
     }
 
     /// The symbol of a name. What is known of it is kept from the first time it is met.

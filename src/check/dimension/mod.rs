@@ -1,0 +1,246 @@
+//! Dimensions: whether the terms of an equation have one.
+//!
+//! Units are declared for some symbols and inferred for the rest. A [`Survey`] reads every equation of a document (as
+//! corrected, where it has a correction) and every premise once; what they say together of an undeclared unit is taken
+//! for granted when an equation is checked, except what that equation says itself: an equation whose own unknown units
+//! take whatever dimension it needs is unchecked, not right.
+//!
+//! Promises: a mismatch is one whatever the undeclared units are, by the declared units and the other equations; it
+//! decides no verdict. `const.` and 0 have any dimension.
+
+mod affine;
+mod finding;
+mod mend;
+mod reading;
+
+#[cfg(test)]
+mod tests;
+
+use std::collections::HashSet;
+
+use crate::semantics::{self, Clause, Scope};
+
+use self::affine::{Affine, Outcome, System};
+use self::mend::Uses;
+use self::reading::{JointReading, LinkReading, Quantities};
+use super::book::{Book, Entry, Formula, Version};
+use super::verdict::{DimensionFinding, DimensionStatus, InferredDimension, Judgement};
+
+/// The dimensions of a whole document.
+pub struct Survey<'b> {
+    book: &'b Book,
+    quantities: Quantities,
+    equations: Vec<Equation>,
+    uses: Uses,
+}
+
+/// What an equation says of dimensions.
+#[derive(Default)]
+struct Equation {
+    /// Its links as printed; `None` for one that is not understood.
+    printed: Vec<Option<LinkReading>>,
+    /// Its links as corrected, where they hold unknown dimensions: what others may infer from it.
+    stated: Vec<LinkReading>,
+    /// Its premises that hold unknown dimensions.
+    premises: Vec<LinkReading>,
+}
+
+/// Whether an equation's terms have one dimension.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Dimensions {
+    /// In a word.
+    pub status: DimensionStatus,
+    /// Where they have not.
+    pub findings: Vec<DimensionFinding>,
+}
+
+impl Dimensions {
+    /// Enters the finding into a judgement.
+    pub fn report(self, judgement: &mut Judgement) {
+        judgement.dimension = self.status;
+        judgement.dimension_findings = self.findings;
+    }
+}
+
+impl<'b> Survey<'b> {
+    /// Reads the dimensions of every equation and premise of a book.
+    pub fn new(book: &'b Book) -> Self {
+        let mut quantities = Quantities::default();
+        let mut seen = HashSet::new();
+        let equations = (0..book.entries.len()).map(|k| equation(book, k, &mut seen, &mut quantities)).collect();
+        Survey { book, quantities, equations, uses: Uses::count(book) }
+    }
+
+    /// Checks the dimensions of an equation as printed.
+    pub fn judge(&self, index: usize) -> Dimensions {
+        let equation = &self.equations[index];
+        let links = &equation.printed;
+        let unknown = links.iter().flatten().any(LinkReading::has_unknowns);
+        let mut system = if unknown { self.knowledge(Some(index)) } else { System::default() };
+        let mut status = if links.is_empty() { DimensionStatus::Unchecked } else { DimensionStatus::Ok };
+        let mut findings: Vec<DimensionFinding> = Vec::new();
+        for link in links {
+            let found = match link {
+                Some(link) => self.check(index, link, &mut system, &mut findings),
+                None => DimensionStatus::Unchecked,
+            };
+            status = status.max(found);
+        }
+        Dimensions { status, findings }
+    }
+
+    /// The dimensions that are not declared and follow from the equations.
+    pub fn inferred(&self) -> Vec<InferredDimension> {
+        let system = self.knowledge(None);
+        let found = system.found().map(|(quantity, dimension, origin)| InferredDimension {
+            symbol: self.quantities.all[quantity].name.clone(),
+            dimension: dimension.to_string(),
+            from: self.book.entries[origin].equation.label.clone(),
+        });
+        found.collect()
+    }
+
+    /// What the equations and premises say of undeclared units, without one equation. What contradicts the earlier ones
+    /// is passed over: it shows where that equation is checked.
+    fn knowledge(&self, except: Option<usize>) -> System {
+        let mut system = System::default();
+        for (origin, equation) in self.equations.iter().enumerate() {
+            let stated = if except == Some(origin) { &[] } else { equation.stated.as_slice() };
+            for link in equation.premises.iter().chain(stated) {
+                let mut trial = system.clone();
+                if state(link, &mut trial, origin) {
+                    system = trial;
+                }
+            }
+        }
+        system
+    }
+
+    fn check(
+        &self,
+        index: usize,
+        link: &LinkReading,
+        system: &mut System,
+        findings: &mut Vec<DimensionFinding>,
+    ) -> DimensionStatus {
+        let mut inner = Comparison::default();
+        let mut top = Comparison::default();
+        let before = findings.len();
+        for (k, joint) in link.joints.iter().enumerate() {
+            let comparison = if k + 1 == link.joints.len() { &mut top } else { &mut inner };
+            if let Some(groups) = compare(joint, system, index, comparison) {
+                let finding = self.finding(index, link, joint, &groups);
+                // A side that two links share is found once.
+                if !findings.iter().any(|f| f.terms == finding.terms) {
+                    findings.push(finding);
+                }
+                inner.mismatch = true;
+            }
+        }
+        for (a, b) in &link.implied {
+            if system.equate(a, b, index) == Outcome::Contradicts && !inner.mismatch && findings.len() == before {
+                findings.push(self.implied(link, &system.reduce(a), &system.reduce(b)));
+                inner.mismatch = true;
+            }
+        }
+        if inner.mismatch {
+            DimensionStatus::Mismatch
+        } else if top.agreed > 0 || top.bound == 0 && inner.agreed > 0 && !link.words {
+            DimensionStatus::Ok
+        } else {
+            DimensionStatus::Unchecked
+        }
+    }
+}
+
+/// What comparing dimensions came to.
+#[derive(Default)]
+struct Comparison {
+    /// How often two dimensions agreed that could have differed.
+    agreed: usize,
+    /// How often they were made to agree by an unknown one.
+    bound: usize,
+    mismatch: bool,
+}
+
+/// Parts of a joint that have the same dimension.
+struct Group {
+    dimension: Affine,
+    parts: Vec<usize>,
+}
+
+/// Compares what a joint joins; the groups of different dimension, where there are several whatever is unknown.
+fn compare(joint: &JointReading, system: &mut System, origin: usize, count: &mut Comparison) -> Option<Vec<Group>> {
+    for component in &joint.components {
+        let mut dimensions = component.clone();
+        if joint.role != semantics::Role::Sum {
+            // An argument is compared with a number.
+            dimensions.insert(0, (usize::MAX, Affine::of(semantics::units::Dimension::NONE)));
+        }
+        let mut bound = 0;
+        let groups = loop {
+            let groups = grouped(&dimensions, system);
+            let Some(most) = groups.iter().max_by_key(|g| (g.dimension.dimension().is_some(), g.parts.len())) else {
+                break groups;
+            };
+            let binds = |g: &Group| system.clone().equate(&most.dimension, &g.dimension, origin) == Outcome::Binds;
+            let Some(open) = groups.iter().find(|g| binds(g)) else { break groups };
+            system.equate(&most.dimension, &open.dimension, origin);
+            bound += 1;
+        };
+        if groups.len() > 1 {
+            return Some(groups);
+        }
+        count.bound += bound;
+        count.agreed += dimensions.len().saturating_sub(1 + bound);
+    }
+    None
+}
+
+/// The parts by their dimensions, in the order of printing.
+fn grouped(dimensions: &[(usize, Affine)], system: &System) -> Vec<Group> {
+    let mut groups: Vec<Group> = Vec::new();
+    for (part, dimension) in dimensions {
+        let dimension = system.reduce(dimension);
+        match groups.iter_mut().find(|g| g.dimension == dimension) {
+            Some(group) => group.parts.push(*part),
+            None => groups.push(Group { dimension, parts: vec![*part] }),
+        }
+    }
+    groups
+}
+
+/// Takes in what a link says; `false` where it contradicts what is known.
+fn state(link: &LinkReading, system: &mut System, origin: usize) -> bool {
+    let mut count = Comparison::default();
+    link.joints.iter().all(|joint| compare(joint, system, origin, &mut count).is_none())
+        && link.implied.iter().all(|(a, b)| system.equate(a, b, origin) != Outcome::Contradicts)
+}
+
+fn equation(book: &Book, index: usize, seen: &mut HashSet<usize>, quantities: &mut Quantities) -> Equation {
+    let entry = &book.entries[index];
+    if entry.scope.natural_units {
+        return Equation::default();
+    }
+    let mapped = entry.annotation().is_some_and(|a| a.maps.is_some());
+    let clauses = |version| book.statement(index, version).map(|s| s.clauses).unwrap_or_default();
+    let mut read = |clause: &Clause| reading::read(&entry.scope, clause, mapped, quantities);
+    let printed: Vec<Option<LinkReading>> = clauses(Version::Printed).iter().map(&mut read).collect();
+    let stated = match &entry.correction {
+        Some(_) => clauses(Version::Corrected).iter().filter_map(&mut read).collect(),
+        None => printed.iter().flatten().cloned().collect::<Vec<_>>(),
+    };
+    let premises = premises(entry, seen, quantities);
+    let unknown = |links: Vec<LinkReading>| links.into_iter().filter(LinkReading::has_unknowns).collect();
+    Equation { printed, stated: unknown(stated), premises: unknown(premises) }
+}
+
+/// The premises that an equation's annotation and its section state, each once.
+fn premises(entry: &Entry, seen: &mut HashSet<usize>, quantities: &mut Quantities) -> Vec<LinkReading> {
+    let scope: &Scope = &entry.scope;
+    let texts = entry.scope.assume.iter().chain(entry.list(|a| &a.where_)).filter(|t| seen.insert(t.span.start));
+    let trees = texts.filter_map(|text| Formula::new(&text.value).tree.ok());
+    let statements = trees.filter_map(|tree| semantics::statement(&tree, None).ok());
+    let clauses: Vec<Clause> = statements.flat_map(|s| s.clauses).collect();
+    clauses.iter().filter_map(|clause| reading::read(scope, clause, false, quantities)).collect()
+}

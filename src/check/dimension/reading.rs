@@ -1,0 +1,212 @@
+//! The dimensions of a clause: of its printed terms, and of whatever else its formulas join.
+//!
+//! They are read off the graph of scalar operations, so that they follow the reading of the formula that is evaluated,
+//! and vectors, matrices and sums over particles need no rules of their own.
+
+use std::collections::HashMap;
+
+use crate::expr::{Expr, Func, Node, SymId};
+use crate::latex::ast::Rel;
+use crate::semantics::units::Dimension;
+use crate::semantics::{Clause, Elaborator, Joint, Quantity, Role, Scope, Value, World, printed_terms};
+
+use super::affine::Affine;
+
+/// The quantities without a declared unit, by number.
+#[derive(Debug, Default)]
+pub struct Quantities {
+    numbers: HashMap<Quantity, usize>,
+    /// The quantities in the order in which they were met.
+    pub all: Vec<Quantity>,
+}
+
+impl Quantities {
+    fn number(&mut self, quantity: &Quantity) -> usize {
+        *self.numbers.entry(quantity.clone()).or_insert_with(|| {
+            self.all.push(quantity.clone());
+            self.all.len() - 1
+        })
+    }
+}
+
+/// Values that are joined, with their dimensions.
+#[derive(Clone, Debug)]
+pub struct JointReading {
+    /// What joins them.
+    pub role: Role,
+    /// The LaTeX of each.
+    pub parts: Vec<String>,
+    /// How many of the parts stand on the left side of a relation; 0 where they stand in one formula.
+    pub left: usize,
+    /// For each component the parts that have a dimension there: 0 has none of its own.
+    pub components: Vec<Vec<(usize, Affine)>>,
+}
+
+/// The dimensions of a clause.
+#[derive(Clone, Debug)]
+pub struct LinkReading {
+    /// The clause's LaTeX.
+    pub latex: String,
+    /// What is joined within its formulas, inner before outer, and last the terms of its sides.
+    pub joints: Vec<JointReading>,
+    /// Dimensions that operations imply to be equal beside those that are printed, as in a product of vectors.
+    pub implied: Vec<(Affine, Affine)>,
+    /// Whether words stand in a term, so that its dimension is not known.
+    pub words: bool,
+}
+
+impl LinkReading {
+    /// Whether an unknown dimension occurs in it.
+    pub fn has_unknowns(&self) -> bool {
+        let joined = self.joints.iter().flat_map(|j| &j.components).flatten().map(|(_, a)| a);
+        let implied = self.implied.iter().flat_map(|(a, b)| [a, b]);
+        joined.chain(implied).any(|a| a.dimension().is_none())
+    }
+}
+
+/// Reads a clause's dimensions; `None` where it cannot be understood or does not compare quantities.
+pub fn read(scope: &Scope, clause: &Clause, mapped: bool, quantities: &mut Quantities) -> Option<LinkReading> {
+    if !(compares(clause.rel) || mapped && clause.rel == Rel::To) {
+        return None;
+    }
+    let mut world = World::with_joints();
+    Elaborator::new(&mut world, scope, Vec::new(), true).build_bases();
+    let terms = printed_terms(&mut world, scope, clause).ok()?;
+    let joints = world.take_joints();
+    let words = terms.iter().any(|t| t.words);
+    let left = terms.iter().filter(|t| t.left && !t.words).count();
+    let parts = terms.into_iter().filter(|t| !t.words).map(|t| (t.latex, t.value)).collect();
+    let top = Joint { role: Role::Sum, parts };
+
+    let mut walk = Walk::new(&world, quantities);
+    let mut read: Vec<JointReading> = Vec::new();
+    for joint in &joints {
+        // A sum over particles takes the same terms down for each of them, and an exponent 2 needs no check.
+        let number = |(_, v): &(String, Value)| matches!(v, Value::Scalar(e) if world.graph.as_rational(*e).is_some());
+        if !joint.parts.iter().all(number)
+            && !read
+                .iter()
+                .any(|r| r.role == joint.role && r.parts.iter().eq(joint.parts.iter().map(|(latex, _)| latex)))
+        {
+            read.extend(walk.joint(joint, 0));
+        }
+    }
+    read.push(walk.joint(&top, left)?);
+    Some(LinkReading { latex: clause.latex(), joints: read, implied: walk.implied, words })
+}
+
+fn compares(rel: Rel) -> bool {
+    use Rel::*;
+    matches!(rel, Eq | Equiv | Ne | Lt | Gt | Le | Ge | Ll | Gg | Approx | Sim | Implies)
+}
+
+/// Dimensions of the nodes of a graph; `None` is that of 0, which is any.
+struct Walk<'w> {
+    world: &'w World,
+    quantities: &'w mut Quantities,
+    time: Affine,
+    known: HashMap<Expr, Option<Affine>>,
+    implied: Vec<(Affine, Affine)>,
+}
+
+impl<'w> Walk<'w> {
+    fn new(world: &'w World, quantities: &'w mut Quantities) -> Self {
+        let t = world.graph.find("t").and_then(|t| world.facts(t).quantity?.dimension);
+        let time = Affine::of(t.unwrap_or(Dimension::TIME));
+        Walk { world, quantities, time, known: HashMap::new(), implied: Vec::new() }
+    }
+
+    /// `None` where the parts have different shapes: that is another finding.
+    fn joint(&mut self, joint: &Joint, left: usize) -> Option<JointReading> {
+        let zero = |v: &Value| matches!(v, Value::Scalar(e) if self.world.graph.is_zero(*e));
+        let shapes = joint.parts.iter().filter(|(_, v)| !zero(v)).map(|(_, v)| v.components().len());
+        let count = shapes.clone().max().unwrap_or(0);
+        if shapes.min().unwrap_or(0) != count {
+            return None;
+        }
+        let mut components = vec![Vec::new(); count];
+        for (part, (_, value)) in joint.parts.iter().enumerate() {
+            for (component, e) in components.iter_mut().zip(value.components()) {
+                component.extend(self.dimension(e).map(|a| (part, a)));
+            }
+        }
+        let parts = joint.parts.iter().map(|(latex, _)| latex.clone()).collect();
+        Some(JointReading { role: joint.role.clone(), parts, left, components })
+    }
+
+    /// Operands before operations, without recursion.
+    fn dimension(&mut self, e: Expr) -> Option<Affine> {
+        let mut stack = vec![e];
+        while let Some(&at) = stack.last() {
+            let missing: Vec<Expr> =
+                self.world.graph.node(at).operands().filter(|o| !self.known.contains_key(o)).collect();
+            if missing.is_empty() || self.known.contains_key(&at) {
+                stack.pop();
+                if !self.known.contains_key(&at) {
+                    let dimension = self.operation(at);
+                    self.known.insert(at, dimension);
+                }
+            } else {
+                stack.extend(missing);
+            }
+        }
+        self.of(e)
+    }
+
+    fn of(&self, e: Expr) -> Option<Affine> {
+        self.known.get(&e).cloned().flatten()
+    }
+
+    fn operation(&mut self, e: Expr) -> Option<Affine> {
+        let number = Affine::of(Dimension::NONE);
+        match *self.world.graph.node(e) {
+            Node::Rational(0, _) => None,
+            Node::Rational(..) | Node::Pi | Node::E => Some(number),
+            Node::Symbol(s) => self.symbol(s),
+            Node::Neg(a) | Node::Call(Func::Abs, a) => self.of(a),
+            Node::Add(a, b) | Node::Sub(a, b) => {
+                self.imply(self.of(a), self.of(b));
+                self.of(a).or(self.of(b))
+            }
+            Node::Mul(a, b) => self.of(a)?.times(&self.of(b)?),
+            Node::Div(a, b) => self.of(a)?.over(&self.of(b)?),
+            Node::PowI(a, n) => self.of(a)?.to_the((i128::from(n), 1)),
+            Node::Sqrt(a) => self.of(a)?.to_the((1, 2)),
+            Node::Pow(a, b) => match self.world.graph.as_rational(b) {
+                Some(n) => self.of(a)?.to_the(n),
+                None => {
+                    self.imply(self.of(a), Some(number.clone()));
+                    self.imply(self.of(b), Some(number.clone()));
+                    Some(number)
+                }
+            },
+            Node::Call(Func::Sign, _) => Some(number),
+            Node::Call(_, a) => {
+                self.imply(self.of(a), Some(number.clone()));
+                Some(number)
+            }
+            Node::Atan2(a, b) => {
+                self.imply(self.of(a), self.of(b));
+                Some(number)
+            }
+        }
+    }
+
+    fn imply(&mut self, a: Option<Affine>, b: Option<Affine>) {
+        if let (Some(a), Some(b)) = (a, b)
+            && a != b
+        {
+            self.implied.push((a, b));
+        }
+    }
+
+    fn symbol(&mut self, s: SymId) -> Option<Affine> {
+        let info = self.world.graph.info(s);
+        let quantity = self.world.facts(info.base).quantity?;
+        let base = match quantity.dimension {
+            Some(dimension) => Affine::of(dimension),
+            None => Affine::unknown(self.quantities.number(&quantity)),
+        };
+        base.over(&self.time.to_the((i128::from(info.order), 1))?)
+    }
+}
