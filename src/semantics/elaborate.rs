@@ -223,6 +223,9 @@ impl<'w> Elaborator<'w> {
 
     fn not_declared(&self, node: &Node) -> Error {
         let name = spelling(node);
+        if name.starts_with("\\operatorname{lim}") {
+            return Error::unsupported("limits are not evaluated yet", &node.span);
+        }
         let error = Error::undeclared(format!("undeclared symbol {name}"), &node.span);
         match self.scope.suggestion(&name) {
             Some(near) => error

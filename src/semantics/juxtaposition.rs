@@ -55,6 +55,11 @@ fn span_of(items: &[Item]) -> Span {
     }
 }
 
+/// The functions of a scalar that are evaluated.
+const FUNCTIONS: [&str; 15] = [
+    "sin", "cos", "tan", "cot", "sec", "csc", "arcsin", "arccos", "arctan", "sinh", "cosh", "tanh", "exp", "ln", "log",
+];
+
 impl Elaborator<'_> {
     /// The value of a product.
     pub(super) fn product(&mut self, node: &Node) -> Result<Typed> {
@@ -270,6 +275,11 @@ impl Elaborator<'_> {
         if let (Value::Matrix(m), "det") = (&argument.value, name) {
             let det = value::determinant(&mut self.world.graph, m);
             return Ok(Typed::new(Value::Scalar(det), format!("det({})", argument.text)));
+        }
+        // What Kenzan does not know must not look like a mistake of the author's: the maximum of a tuple, exp of a matrix.
+        if !FUNCTIONS.contains(&name) || name == "exp" && matches!(argument.value, Value::Matrix(_)) {
+            let of = argument.value.shape();
+            return Err(Error::unsupported(format!("the function {name} of {of} is not evaluated yet"), span));
         }
         let x = self.scalar(&argument, span)?;
         let graph = &mut self.world.graph;
