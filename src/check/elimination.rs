@@ -86,6 +86,11 @@ impl Elimination {
         }
     }
 
+    /// Whether there are no premises.
+    pub fn is_empty(&self) -> bool {
+        self.residuals.is_empty()
+    }
+
     /// Everything that has to be evaluated.
     pub fn expressions(&self) -> Vec<Expr> {
         let slopes = self.rows.iter().flat_map(|row| row.values());

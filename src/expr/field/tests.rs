@@ -26,20 +26,20 @@ fn vanishes(g: &Graph, e: Expr) -> Option<bool> {
     })
 }
 
-struct Angles2 {
+struct Bench {
     g: Graph,
     a: Expr,
     b: Expr,
 }
 
-fn angles() -> Angles2 {
+fn angles() -> Bench {
     let mut g = Graph::new();
     let (a, b) = (g.symbol("a"), g.symbol("b"));
     let (a, b) = (g.sym(a), g.sym(b));
-    Angles2 { g, a, b }
+    Bench { g, a, b }
 }
 
-impl Angles2 {
+impl Bench {
     fn sin(&mut self, e: Expr) -> Expr {
         self.g.call(Func::Sin, e)
     }
@@ -255,7 +255,7 @@ fn steps() -> impl Strategy<Value = Vec<Step>> {
 }
 
 /// The point number n on a line through the space of all that is drawn, and what was drawn.
-fn on_line<'f>(field: &'f Field, n: u64) -> (Point, Vec<F61>) {
+fn on_line(field: &Field, n: u64) -> (Point, Vec<F61>) {
     let (mut from, mut along) = (bits(3), bits(4));
     let mut drawn = Vec::new();
     let point = field.draw(&mut || {
