@@ -41,8 +41,12 @@ pub fn judge(book: &Book, index: usize, options: &Options) -> Judgement {
     judgement.summarise();
     if let Some(correction) = &entry.correction {
         let outcome = judge_version(book, index, Version::Corrected, options);
-        judgement.correction =
-            Some(Correction { latex: correction.latex.clone(), verdict: outcome.verdict, links: outcome.links });
+        judgement.correction = Some(Correction {
+            latex: correction.latex.clone(),
+            verdict: outcome.verdict,
+            dimension: DimensionStatus::Unchecked,
+            links: outcome.links,
+        });
     }
     judgement.as_expected = as_expected(&judgement);
     judgement.micros = u64::try_from(begin.elapsed().as_micros()).unwrap_or(u64::MAX);

@@ -83,7 +83,8 @@ fn erratum() -> Judgement {
     };
     let term = |latex: &str, dimension: &str| TermDimension { latex: latex.into(), dimension: dimension.into() };
     let finding = DimensionFinding {
-        message: r"the term $L_z$ has the dimension kg m² s⁻¹, the other s⁻¹; a factor $\frac{1}{I_0}$ would mend it".into(),
+        message: r"the term $L_z$ has the dimension kg m² s⁻¹, the other s⁻¹; a factor $\frac{1}{I_0}$ would mend it"
+            .into(),
         link: failing.latex.clone(),
         terms: vec![term(r"\Omega", "s⁻¹"), term("L_z", "kg m² s⁻¹")],
         found: Some("kg m² s⁻¹".into()),
@@ -95,7 +96,12 @@ fn erratum() -> Judgement {
         given: vec!["1".into(), "99".into()],
         assumptions: vec![r"\sin\theta \ne 0".into()],
         reason: Some(r"the square of $\sin\theta$ is missing".into()),
-        correction: Some(Correction { latex: mended.into(), verdict: Verdict::Holds, links: vec![agreeing(mended)] }),
+        correction: Some(Correction {
+            latex: mended.into(),
+            verdict: Verdict::Holds,
+            dimension: DimensionStatus::Ok,
+            links: vec![agreeing(mended)],
+        }),
         dimension: DimensionStatus::Mismatch,
         dimension_findings: vec![finding],
         expect: Some(Verdict::Fails),

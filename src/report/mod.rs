@@ -14,6 +14,7 @@ pub mod terminal;
 mod text;
 mod view;
 mod view_charts;
+mod view_dimensions;
 
 pub use charts::Chart;
 pub use counts::Counts;

@@ -5,7 +5,7 @@
 
 use super::math::Renderer;
 use super::text::{duration, language, number, strength, symbol, word};
-use super::{Counts, Options, Run, diff, view_charts};
+use super::{Counts, Options, Run, diff, view_charts, view_dimensions};
 use crate::check::verdict::{Correction, Counterexample, DocumentReport, Judgement, LinkJudgement, Order, Verdict};
 use serde::Serialize;
 use std::collections::{HashMap, HashSet};
@@ -32,6 +32,7 @@ struct Document {
     title_html: String,
     lang: Option<&'static str>,
     problems_html: Vec<String>,
+    dimensions: Option<view_dimensions::Summary>,
     counts: Counts,
     shares: Vec<Share>,
     sections: Vec<Section>,
@@ -83,6 +84,7 @@ struct Equation {
     /// The reason in a list of equations: that of the link that decides, where the equation has none of its own.
     why_html: Option<String>,
     links: Vec<LinkView>,
+    dimensions: view_dimensions::View,
     counterexample: Option<CounterexampleView>,
     order: Option<OrderView>,
     correction: Option<CorrectionView>,
@@ -208,6 +210,7 @@ impl Builder {
             title_html: self.renderer.prose(&document.title),
             lang: language(&document.title),
             problems_html: document.problems.iter().map(|p| self.renderer.prose(p)).collect(),
+            dimensions: view_dimensions::summary(document, &self.renderer),
             counts,
             shares: shares.into_iter().filter(|s| s.count > 0).collect(),
             sections,
@@ -259,6 +262,7 @@ impl Builder {
             reason_html: reason.map(|r| self.renderer.prose(r)),
             why_html: super::text::reason(j).map(|r| self.renderer.prose(r)),
             links: if only.is_some() { Vec::new() } else { j.links.iter().map(|l| self.link(l)).collect() },
+            dimensions: view_dimensions::view(j, &self.renderer),
             counterexample: j.counterexample.as_ref().map(|c| self.counterexample(c)),
             order: only.and_then(|l| l.order.as_ref()).map(|o| self.order(o)),
             correction,
@@ -269,7 +273,7 @@ impl Builder {
 
     /// The printed formula and its correction with what differs marked.
     fn correction(&self, j: &Judgement, plain: &str) -> (String, Option<CorrectionView>) {
-        let Some(Correction { latex, verdict, links }) = &j.correction else { return (plain.to_owned(), None) };
+        let Some(Correction { latex, verdict, links, .. }) = &j.correction else { return (plain.to_owned(), None) };
         // A reading stands for the printed formula; the correction is compared with what was judged.
         let judged = j.reading.as_ref().unwrap_or(&j.latex);
         let marks = diff::mark(judged, latex)

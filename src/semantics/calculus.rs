@@ -8,8 +8,8 @@ use super::error::{Error, Result};
 use super::juxtaposition::Item;
 use super::name::spelling;
 use super::scope::Basis;
-use super::value::{self, Matrix, Value};
 use super::units::Dimension;
+use super::value::{self, Matrix, Value};
 use super::world::{Facts, Quantity};
 
 /// A derivative written as a fraction.

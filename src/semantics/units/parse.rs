@@ -183,8 +183,6 @@ impl Parser<'_> {
 
     fn number(&self, digits: &str, begin: usize) -> Result<i128, UnitError> {
         let number = digits.parse().ok().filter(|n| (-LARGEST..=LARGEST).contains(n));
-        number.ok_or_else(|| {
-            self.error(format!("an exponent must be a whole number up to {LARGEST}"), begin..self.at)
-        })
+        number.ok_or_else(|| self.error(format!("an exponent must be a whole number up to {LARGEST}"), begin..self.at))
     }
 }
