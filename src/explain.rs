@@ -2,7 +2,8 @@
 
 use std::fmt::Write;
 
-use crate::check::verdict::Judgement;
+use crate::check::dimension::Survey;
+use crate::check::verdict::{DimensionStatus, Judgement};
 use crate::check::{self, Book, Options, Version, inspect::Inspection};
 use crate::document::Document;
 
@@ -11,7 +12,8 @@ use crate::document::Document;
 pub fn explain(document: &Document, label: &str, options: &Options) -> Option<String> {
     let book = Book::new(document);
     let (index, _) = book.find(label).filter(|(index, _)| book.entries[*index].equation.label == label)?;
-    let judgement = check::judge(&book, index, options);
+    let mut judgement = check::judge(&book, index, options);
+    Survey::new(&book).report(index, &mut judgement);
     let mut text = String::new();
     // Writing to a string cannot fail.
     let _ = write(&mut text, document, &book, index, &judgement, options);
@@ -96,6 +98,18 @@ fn verdict(out: &mut String, judgement: &Judgement) -> std::fmt::Result {
     }
     if let Some(correction) = &judgement.correction {
         writeln!(out, "  corrected: {}: {}", name(correction.verdict), correction.latex.trim())?;
+    }
+    let dimension = match judgement.dimension {
+        DimensionStatus::Ok => "the terms have one dimension",
+        DimensionStatus::Unchecked => "not checked",
+        DimensionStatus::Mismatch => "the terms differ",
+    };
+    writeln!(out, "  dimensions: {dimension}")?;
+    for finding in &judgement.dimension_findings {
+        writeln!(out, "    {}", finding.message)?;
+        for term in &finding.terms {
+            writeln!(out, "      {}: {}", term.latex, term.dimension)?;
+        }
     }
     if let Some(because) = &judgement.because {
         writeln!(out, "  {because}")?;

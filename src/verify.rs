@@ -68,7 +68,7 @@ pub fn verify(document: Document, request: &Request, judged: &(dyn Fn() + Sync))
         let outcome = catch_unwind(AssertUnwindSafe(|| judged_and_diagnosed(&book, *index, request)));
         let mut judgement = outcome.unwrap_or_else(|_| broken(&book, *index));
         if let Some(survey) = &survey {
-            survey.judge(*index).report(&mut judgement);
+            survey.report(*index, &mut judgement);
         }
         judged();
         judgement

@@ -47,6 +47,7 @@ pub fn judge(book: &Book, index: usize, options: &Options) -> Judgement {
         judgement.correction = Some(Correction {
             latex: correction.latex.clone(),
             verdict: outcome.verdict,
+            dimension: DimensionStatus::Unchecked,
             links: outcome.links,
             problem: outcome.problem,
         });

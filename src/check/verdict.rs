@@ -177,6 +177,8 @@ pub struct Correction {
     pub latex: String,
     /// Its verdict.
     pub verdict: Verdict,
+    /// Whether its terms have one dimension.
+    pub dimension: DimensionStatus,
     /// Its links.
     pub links: Vec<LinkJudgement>,
     /// What stands in the way of a verdict, where no link says it.

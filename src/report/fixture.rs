@@ -106,6 +106,7 @@ fn erratum() -> Judgement {
         correction: Some(Correction {
             latex: mended.into(),
             verdict: Verdict::Holds,
+            dimension: DimensionStatus::Ok,
             links: vec![agreeing(mended)],
             problem: None,
         }),

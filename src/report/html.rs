@@ -5,7 +5,7 @@ use tera::{Context, Tera};
 
 /// The templates by the names under which they include each other. The names end in `.html`, so what they are given is
 /// escaped.
-const TEMPLATES: [(&str, &str); 13] = [
+const TEMPLATES: [(&str, &str); 14] = [
     ("report.html", include_str!("../../templates/report.html")),
     ("summary.html", include_str!("../../templates/summary.html")),
     ("map.html", include_str!("../../templates/map.html")),
@@ -15,6 +15,7 @@ const TEMPLATES: [(&str, &str); 13] = [
     ("badge.html", include_str!("../../templates/badge.html")),
     ("counterexample.html", include_str!("../../templates/counterexample.html")),
     ("order.html", include_str!("../../templates/order.html")),
+    ("dimensions.html", include_str!("../../templates/dimensions.html")),
     ("chart.html", include_str!("../../templates/chart.html")),
     ("diagnosis.html", include_str!("../../templates/diagnosis.html")),
     ("survivors.html", include_str!("../../templates/survivors.html")),

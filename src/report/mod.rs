@@ -15,6 +15,7 @@ mod text;
 mod view;
 mod view_charts;
 mod view_diagnosis;
+mod view_dimensions;
 
 pub use charts::Chart;
 pub use counts::Counts;

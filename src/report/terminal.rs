@@ -2,7 +2,7 @@
 
 use super::text::{duration, reason, symbol, word};
 use super::{Counts, Options, Run, counts};
-use crate::check::verdict::{DocumentReport, Judgement, Sensitivity, Verdict};
+use crate::check::verdict::{DimensionStatus, DocumentReport, Judgement, Sensitivity, Verdict};
 use std::fmt::Write;
 
 /// The summary: for each document the counts, then each equation that fails, cannot be decided or read, or is not as
@@ -39,6 +39,9 @@ fn summarize(text: &mut String, document: &DocumentReport, paint: Paint) -> std:
     if counts.holds > 0 {
         writeln!(text, "  exact: {} of {} that hold", counts.exact, counts.holds)?;
     }
+    if let Some(dimensions) = dimensions(document) {
+        writeln!(text, "  dimensions: {dimensions}")?;
+    }
     for problem in &document.problems {
         writeln!(text, "  {} {}", paint.verdict(Verdict::Unreadable, "!"), one_line(problem))?;
     }
@@ -47,6 +50,15 @@ fn summarize(text: &mut String, document: &DocumentReport, paint: Paint) -> std:
     }
     mutants(text, document)?;
     writeln!(text)
+}
+
+/// `71 ok, 8 mismatches, 16 unchecked`
+fn dimensions(document: &DocumentReport) -> Option<String> {
+    let count = |status| document.equations.iter().filter(|e| e.dimension == status).count();
+    let (ok, mismatches) = (count(DimensionStatus::Ok), count(DimensionStatus::Mismatch));
+    let plural = if mismatches == 1 { "mismatch" } else { "mismatches" };
+    let unchecked = count(DimensionStatus::Unchecked);
+    (ok + mismatches > 0).then(|| format!("{ok} ok, {mismatches} {plural}, {unchecked} unchecked"))
 }
 
 /// `✗ 3 fails (1 erratum)`
@@ -60,7 +72,9 @@ fn share(counts: Counts, verdict: Verdict, paint: Paint) -> String {
 }
 
 fn is_shown(j: &Judgement) -> bool {
-    matches!(j.verdict, Verdict::Fails | Verdict::Undecided | Verdict::Unreadable) || !j.as_expected
+    matches!(j.verdict, Verdict::Fails | Verdict::Undecided | Verdict::Unreadable)
+        || !j.as_expected
+        || !j.dimension_findings.is_empty()
 }
 
 fn line(text: &mut String, document: &DocumentReport, j: &Judgement, paint: Paint) -> std::fmt::Result {
@@ -82,6 +96,9 @@ fn line(text: &mut String, document: &DocumentReport, j: &Judgement, paint: Pain
         writeln!(text, "      should read  {}  ({verdict})", one_line(&correction.latex))?;
     } else if let Some(c) = &j.counterexample {
         writeln!(text, "      for example  {}  against  {}", c.lhs, c.rhs)?;
+    }
+    for finding in &j.dimension_findings {
+        writeln!(text, "      dimensions: {}", one_line(&finding.message))?;
     }
     for suggestion in &j.suggestions {
         writeln!(text, "      perhaps  {}  ({})", one_line(&suggestion.latex), one_line(&suggestion.edit))?;

@@ -5,7 +5,7 @@
 
 use super::math::Renderer;
 use super::text::{duration, language, number, strength, symbol, word};
-use super::{Counts, Options, Run, diff, text, view_charts, view_diagnosis};
+use super::{Counts, Options, Run, diff, text, view_charts, view_diagnosis, view_dimensions};
 use crate::check::verdict::{Correction, Counterexample, DocumentReport, Judgement, LinkJudgement, Order, Verdict};
 use serde::Serialize;
 use std::collections::{HashMap, HashSet};
@@ -34,6 +34,7 @@ struct Document {
     title_html: String,
     lang: Option<&'static str>,
     problems_html: Vec<String>,
+    dimensions: Option<view_dimensions::Summary>,
     counts: Counts,
     shares: Vec<Share>,
     sections: Vec<Section>,
@@ -85,6 +86,7 @@ struct Equation {
     /// The reason in a list of equations: that of the link that decides, where the equation has none of its own.
     why_html: Option<String>,
     links: Vec<LinkView>,
+    dimensions: view_dimensions::View,
     counterexample: Option<CounterexampleView>,
     order: Option<OrderView>,
     correction: Option<CorrectionView>,
@@ -212,6 +214,7 @@ impl Builder {
             title_html: self.renderer.prose(&document.title),
             lang: language(&document.title),
             problems_html: document.problems.iter().map(|p| self.renderer.prose(p)).collect(),
+            dimensions: view_dimensions::summary(document, &self.renderer),
             counts,
             shares: shares.into_iter().filter(|s| s.count > 0).collect(),
             sections,
@@ -264,6 +267,7 @@ impl Builder {
             reason_html: reason.map(|r| self.renderer.prose(r)),
             why_html: super::text::reason(j).map(|r| self.renderer.prose(r)),
             links: if only.is_some() { Vec::new() } else { j.links.iter().map(|l| self.link(l)).collect() },
+            dimensions: view_dimensions::view(j, &self.renderer),
             counterexample: j.counterexample.as_ref().map(|c| self.counterexample(c)),
             order: only.and_then(|l| l.order.as_ref()).map(|o| self.order(o)),
             correction,

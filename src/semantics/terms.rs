@@ -8,6 +8,7 @@ use super::error::Result;
 use super::juxtaposition::Item;
 use super::scope::Scope;
 use super::statement::{Clause, Side, assignments};
+use super::units;
 use super::value::Value;
 use super::world::World;
 
@@ -20,8 +21,10 @@ pub struct PrintedTerm {
     pub value: Value,
     /// Whether it stands on the left side.
     pub left: bool,
-    /// Whether words stand in it, such as the name of a unit.
-    pub words: bool,
+    /// Whether the name of a unit stands in it as words, so that its dimension is not that of its value.
+    pub unit: bool,
+    /// The function whose argument, without brackets, reaches to the term's end.
+    pub open: Option<String>,
 }
 
 /// The terms of both sides in the order of printing; `const.` has none. Vectors beside columns are their components.
@@ -41,7 +44,8 @@ pub fn printed_terms(world: &mut World, scope: &Scope, clause: &Clause) -> Resul
     for (k, side) in sides.iter().enumerate() {
         for node in terms_of(side) {
             let value = elaborator.value(node)?.value;
-            terms.push(PrintedTerm { latex: to_latex(node), value, left: k == 0, words: has_words(node) });
+            let (unit, open) = (has_unit(node), open_function(node));
+            terms.push(PrintedTerm { latex: to_latex(node), value, left: k == 0, unit, open });
         }
     }
     if terms.iter().any(|t| matches!(t.value, Value::Matrix(_))) {
@@ -60,12 +64,28 @@ fn terms_of(side: &Node) -> Vec<&Node> {
     }
 }
 
-/// Whether words are a factor of a term or of a part of it; words in a subscript belong to a name.
-fn has_words(node: &Node) -> bool {
+/// Whether a unit is a factor of a term or of a part of it; words in a subscript belong to a name.
+fn has_unit(node: &Node) -> bool {
     match &node.kind {
-        Kind::Text(_) => true,
-        Kind::Scripts { base, .. } => has_words(base),
-        Kind::Annotated { body, .. } => has_words(body),
-        _ => node.children().into_iter().any(has_words),
+        Kind::Text(text) => units::parse(text).is_ok(),
+        Kind::Scripts { base, .. } => has_unit(base),
+        Kind::Annotated { body, .. } => has_unit(body),
+        _ => node.children().into_iter().any(has_unit),
     }
+}
+
+/// The last function of a product, where no bracket shows the end of its argument.
+fn open_function(node: &Node) -> Option<String> {
+    let Kind::Juxt(factors) = &node.kind else { return None };
+    let name = |n: &Node| match &n.kind {
+        Kind::Function(name) => Some(name.clone()),
+        Kind::Scripts { base, .. } => match &base.kind {
+            Kind::Function(name) => Some(name.clone()),
+            _ => None,
+        },
+        _ => None,
+    };
+    let (at, name) = factors.iter().enumerate().rev().find_map(|(k, n)| Some((k, name(n)?)))?;
+    let bracketed = factors[at + 1..].iter().any(|n| matches!(n.kind, Kind::Group { .. }));
+    (!bracketed).then_some(name)
 }

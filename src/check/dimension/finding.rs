@@ -25,6 +25,19 @@ impl Survey<'_> {
             expected: None,
             factors: Vec::new(),
         };
+        if let Some((part, function)) = stray(joint, groups) {
+            let latex = &joint.parts[part];
+            finding.message = format!(
+                "the term ${latex}$ is a number and would fit into the argument of {function} before it: are brackets missing?"
+            );
+            let rest = without(groups, part);
+            if rest.len() > 1 {
+                let rest = self.finding(index, link, joint, &rest);
+                finding.message += &format!(" Without it, {}", rest.message);
+                (finding.found, finding.expected, finding.factors) = (rest.found, rest.expected, rest.factors);
+            }
+            return finding;
+        }
         let Some((odd, others)) = two(groups) else {
             let each = finding.terms.iter().map(|t| format!("${}$ {}", t.latex, t.dimension));
             finding.message = format!("the terms have different dimensions: {}", each.collect::<Vec<_>>().join(", "));
@@ -91,6 +104,19 @@ impl Survey<'_> {
     }
 }
 
+/// A number among terms of another dimension, behind a function whose argument has no brackets.
+fn stray<'j>(joint: &'j JointReading, groups: &[Group]) -> Option<(usize, &'j str)> {
+    let number = groups.iter().find(|g| g.dimension.dimension().is_some_and(|d| d.is_none()))?;
+    let [part] = *number.parts.as_slice() else { return None };
+    let before = part.checked_sub(1).filter(|before| joint.left <= *before || part < joint.left)?;
+    Some((part, joint.open.get(before)?.as_deref()?))
+}
+
+fn without(groups: &[Group], part: usize) -> Vec<Group> {
+    let rest = groups.iter().filter(|g| g.parts != [part]);
+    rest.map(|g| Group { dimension: g.dimension.clone(), parts: g.parts.clone() }).collect()
+}
+
 /// The group that stands out and the other, where there are two: the smaller, or else the one that is printed later.
 fn two(groups: &[Group]) -> Option<(&Group, &Group)> {
     match groups {
@@ -102,22 +128,24 @@ fn two(groups: &[Group]) -> Option<(&Group, &Group)> {
 }
 
 /// The sides as such, where they differ as a whole.
-fn side(joint: &JointReading, group: &Group) -> Option<&'static str> {
-    let left = (0..joint.left).collect::<Vec<_>>();
-    let right = (joint.left..joint.parts.len()).collect::<Vec<_>>();
+fn side(joint: &JointReading, group: &Group, other: &Group) -> Option<&'static str> {
+    let left = |g: &Group| g.parts.iter().all(|p| *p < joint.left);
+    let right = |g: &Group| g.parts.iter().all(|p| *p >= joint.left);
     match joint.left {
         0 => None,
-        _ if group.parts == left => Some("the left side"),
-        _ if group.parts == right => Some("the right side"),
+        _ if left(group) && right(other) => Some("the left side"),
+        _ if right(group) && left(other) => Some("the right side"),
         _ => None,
     }
 }
 
 fn subject(joint: &JointReading, odd: &Group, others: &Group) -> String {
-    if let (Some(side), Some(_)) = (side(joint, odd), side(joint, others)) {
+    if let Some(side) = side(joint, odd, others) {
         return format!("{side} has the dimension");
     }
-    let parts: Vec<String> = odd.parts.iter().filter_map(|p| joint.parts.get(*p)).map(|p| format!("${p}$")).collect();
+    let mut parts: Vec<String> =
+        odd.parts.iter().filter_map(|p| joint.parts.get(*p)).map(|p| format!("${p}$")).collect();
+    parts.dedup();
     match parts.as_slice() {
         [part] => format!("the term {part} has the dimension"),
         parts => format!("the terms {} have the dimension", parts.join(", ")),
@@ -125,8 +153,8 @@ fn subject(joint: &JointReading, odd: &Group, others: &Group) -> String {
 }
 
 fn rest(joint: &JointReading, odd: &Group, others: &Group) -> &'static str {
-    match (side(joint, odd), side(joint, others)) {
-        (Some(_), Some(side)) => side,
+    match side(joint, others, odd) {
+        Some(side) => side,
         _ if others.parts.len() == 1 => "the other",
         _ => "the others",
     }

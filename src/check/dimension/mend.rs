@@ -22,6 +22,8 @@ struct Candidate<'s> {
     dimension: Dimension,
     above: usize,
     below: usize,
+    /// Whether the equation itself has it.
+    here: bool,
 }
 
 /// A factor with what speaks for it.
@@ -30,6 +32,8 @@ struct Factor {
     /// How many symbols it has, powers counted.
     length: usize,
     uses: usize,
+    /// Whether the equation itself has its symbols.
+    here: bool,
 }
 
 impl Uses {
@@ -50,8 +54,8 @@ impl Uses {
 
     /// The simplest factors of this dimension, in LaTeX, those first whose symbols are most used in that place.
     pub fn factors(&self, book: &Book, index: usize, need: Dimension) -> Vec<String> {
-        let scope = &book.entries[index].scope;
-        let mut candidates = self.candidates(scope);
+        let entry = &book.entries[index];
+        let mut candidates = self.candidates(&entry.scope, &entry.mentions);
         candidates.sort_by(|a, b| (b.above + b.below).cmp(&(a.above + a.below)).then(a.name.cmp(b.name)));
         let mut factors: Vec<Factor> = candidates.iter().flat_map(|c| c.powers(need)).collect();
         if factors.is_empty() {
@@ -62,11 +66,11 @@ impl Uses {
         }
         let shortest = factors.iter().map(|f| f.length).min();
         factors.retain(|f| Some(f.length) == shortest);
-        factors.sort_by(|a, b| b.uses.cmp(&a.uses).then(a.latex.cmp(&b.latex)));
+        factors.sort_by(|a, b| b.uses.cmp(&a.uses).then(b.here.cmp(&a.here)).then(a.latex.cmp(&b.latex)));
         factors.into_iter().take(NAMED).map(|f| f.latex).collect()
     }
 
-    fn candidates<'s>(&self, scope: &'s Scope) -> Vec<Candidate<'s>> {
+    fn candidates<'s>(&self, scope: &'s Scope, mentions: &HashSet<String>) -> Vec<Candidate<'s>> {
         let count = |name: &str, above: bool| self.0.get(&(name.to_owned(), above)).copied().unwrap_or(0);
         let named = scope.entries().filter(|e| e.kind == EntryKind::Scalar && !e.pattern.contains('#'));
         let used = named.filter_map(|e| {
@@ -74,7 +78,13 @@ impl Uses {
             let (above, below) = (count(&e.pattern, true), count(&e.pattern, false));
             // Time itself is no constant of a formula.
             let offered = above + below > 0 && !matches!(e.pattern.as_str(), "t" | "dt");
-            offered.then_some(Candidate { name: &e.pattern, dimension, above, below })
+            offered.then_some(Candidate {
+                name: &e.pattern,
+                dimension,
+                above,
+                below,
+                here: mentions.contains(&e.pattern),
+            })
         });
         used.collect()
     }
@@ -91,7 +101,9 @@ impl Candidate<'_> {
             (-2, format!("\\frac{{1}}{{{}^{{2}}}}", grouped(name)), self.below),
         ];
         let fitting = forms.into_iter().filter(|(n, ..)| self.dimension.to_the((*n, 1)) == Some(need));
-        fitting.map(|(n, latex, uses)| Factor { latex, length: n.unsigned_abs() as usize, uses }).collect()
+        fitting
+            .map(|(n, latex, uses)| Factor { latex, length: n.unsigned_abs() as usize, uses, here: self.here })
+            .collect()
     }
 
     /// The products and quotients of two symbols that have the dimension.
@@ -107,7 +119,7 @@ impl Candidate<'_> {
             (inverse(product), format!("\\frac{{1}}{{{a} {b}}}"), self.below.min(other.below)),
         ];
         let fitting = forms.into_iter().filter(|(dimension, ..)| *dimension == Some(need));
-        fitting.map(|(_, latex, uses)| Factor { latex, length: 2, uses }).collect()
+        fitting.map(|(_, latex, uses)| Factor { latex, length: 2, uses, here: self.here && other.here }).collect()
     }
 }
 

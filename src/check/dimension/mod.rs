@@ -39,8 +39,8 @@ pub struct Survey<'b> {
 struct Equation {
     /// Its links as printed; `None` for one that is not understood.
     printed: Vec<Option<LinkReading>>,
-    /// Its links as corrected, where they hold unknown dimensions: what others may infer from it.
-    stated: Vec<LinkReading>,
+    /// Its links as corrected, where it has a correction.
+    corrected: Option<Vec<Option<LinkReading>>>,
     /// Its premises that hold unknown dimensions.
     premises: Vec<LinkReading>,
 }
@@ -54,11 +54,17 @@ pub struct Dimensions {
     pub findings: Vec<DimensionFinding>,
 }
 
-impl Dimensions {
-    /// Enters the finding into a judgement.
-    pub fn report(self, judgement: &mut Judgement) {
-        judgement.dimension = self.status;
-        judgement.dimension_findings = self.findings;
+impl Equation {
+    fn links(&self, version: Version) -> &[Option<LinkReading>] {
+        match (version, &self.corrected) {
+            (Version::Corrected, Some(corrected)) => corrected,
+            _ => &self.printed,
+        }
+    }
+
+    /// What others may infer from it.
+    fn stated(&self) -> impl Iterator<Item = &LinkReading> {
+        self.links(Version::Corrected).iter().flatten().filter(|link| link.has_unknowns())
     }
 }
 
@@ -71,22 +77,29 @@ impl<'b> Survey<'b> {
         Survey { book, quantities, equations, uses: Uses::count(book) }
     }
 
-    /// Checks the dimensions of an equation as printed.
-    pub fn judge(&self, index: usize) -> Dimensions {
-        let equation = &self.equations[index];
-        let links = &equation.printed;
+    /// Enters the finding on an equation, and on its correction, into its judgement.
+    pub fn report(&self, index: usize, judgement: &mut Judgement) {
+        let Dimensions { status, findings } = self.judge(index, Version::Printed);
+        (judgement.dimension, judgement.dimension_findings) = (status, findings);
+        if let Some(correction) = &mut judgement.correction {
+            correction.dimension = self.judge(index, Version::Corrected).status;
+        }
+    }
+
+    /// Checks the dimensions of a version of an equation.
+    pub fn judge(&self, index: usize, version: Version) -> Dimensions {
+        let links = self.equations[index].links(version);
         let unknown = links.iter().flatten().any(LinkReading::has_unknowns);
         let mut system = if unknown { self.knowledge(Some(index)) } else { System::default() };
-        let mut status = if links.is_empty() { DimensionStatus::Unchecked } else { DimensionStatus::Ok };
         let mut findings: Vec<DimensionFinding> = Vec::new();
-        for link in links {
-            let found = match link {
+        let statuses: Vec<DimensionStatus> = links
+            .iter()
+            .filter_map(|link| match link {
                 Some(link) => self.check(index, link, &mut system, &mut findings),
-                None => DimensionStatus::Unchecked,
-            };
-            status = status.max(found);
-        }
-        Dimensions { status, findings }
+                None => Some(DimensionStatus::Unchecked),
+            })
+            .collect();
+        Dimensions { status: statuses.into_iter().max().unwrap_or(DimensionStatus::Unchecked), findings }
     }
 
     /// The dimensions that are not declared and follow from the equations.
@@ -105,7 +118,7 @@ impl<'b> Survey<'b> {
     fn knowledge(&self, except: Option<usize>) -> System {
         let mut system = System::default();
         for (origin, equation) in self.equations.iter().enumerate() {
-            let stated = if except == Some(origin) { &[] } else { equation.stated.as_slice() };
+            let stated = equation.stated().filter(|_| except != Some(origin));
             for link in equation.premises.iter().chain(stated) {
                 let mut trial = system.clone();
                 if state(link, &mut trial, origin) {
@@ -116,13 +129,14 @@ impl<'b> Survey<'b> {
         system
     }
 
+    /// Checks a link; `None` where there is nothing to compare, as in x = 0.
     fn check(
         &self,
         index: usize,
         link: &LinkReading,
         system: &mut System,
         findings: &mut Vec<DimensionFinding>,
-    ) -> DimensionStatus {
+    ) -> Option<DimensionStatus> {
         let mut inner = Comparison::default();
         let mut top = Comparison::default();
         let before = findings.len();
@@ -130,8 +144,9 @@ impl<'b> Survey<'b> {
             let comparison = if k + 1 == link.joints.len() { &mut top } else { &mut inner };
             if let Some(groups) = compare(joint, system, index, comparison) {
                 let finding = self.finding(index, link, joint, &groups);
-                // A side that two links share is found once.
-                if !findings.iter().any(|f| f.terms == finding.terms) {
+                // What two links share is found once, and the sum in an argument tells of the argument.
+                let told = joint.role != semantics::Role::Sum && inner.mismatch;
+                if !told && !findings.iter().any(|f| f.message == finding.message) {
                     findings.push(finding);
                 }
                 inner.mismatch = true;
@@ -143,12 +158,12 @@ impl<'b> Survey<'b> {
                 inner.mismatch = true;
             }
         }
-        if inner.mismatch {
-            DimensionStatus::Mismatch
-        } else if top.agreed > 0 || top.bound == 0 && inner.agreed > 0 && !link.words {
-            DimensionStatus::Ok
-        } else {
-            DimensionStatus::Unchecked
+        match (top.agreed, top.bound, inner.agreed) {
+            _ if inner.mismatch => Some(DimensionStatus::Mismatch),
+            (0, 0, 0) if !link.units => None,
+            (0, 0, _) if !link.units => Some(DimensionStatus::Ok),
+            (0, ..) => Some(DimensionStatus::Unchecked),
+            _ => Some(DimensionStatus::Ok),
         }
     }
 }
@@ -226,13 +241,10 @@ fn equation(book: &Book, index: usize, seen: &mut HashSet<usize>, quantities: &m
     let clauses = |version| book.statement(index, version).map(|s| s.clauses).unwrap_or_default();
     let mut read = |clause: &Clause| reading::read(&entry.scope, clause, mapped, quantities);
     let printed: Vec<Option<LinkReading>> = clauses(Version::Printed).iter().map(&mut read).collect();
-    let stated = match &entry.correction {
-        Some(_) => clauses(Version::Corrected).iter().filter_map(&mut read).collect(),
-        None => printed.iter().flatten().cloned().collect::<Vec<_>>(),
-    };
+    let correction = entry.correction.as_ref().map(|_| clauses(Version::Corrected));
+    let corrected = correction.map(|clauses| clauses.iter().map(&mut read).collect());
     let premises = premises(entry, seen, quantities);
-    let unknown = |links: Vec<LinkReading>| links.into_iter().filter(LinkReading::has_unknowns).collect();
-    Equation { printed, stated: unknown(stated), premises: unknown(premises) }
+    Equation { printed, corrected, premises: premises.into_iter().filter(LinkReading::has_unknowns).collect() }
 }
 
 /// The premises that an equation's annotation and its section state, each once.

@@ -8,7 +8,7 @@ use std::collections::HashMap;
 use crate::expr::{Expr, Func, Node, SymId};
 use crate::latex::ast::Rel;
 use crate::semantics::units::Dimension;
-use crate::semantics::{Clause, Elaborator, Joint, Quantity, Role, Scope, Value, World, printed_terms};
+use crate::semantics::{Clause, Elaborator, Joint, PrintedTerm, Quantity, Role, Scope, Value, World, printed_terms};
 
 use super::affine::Affine;
 
@@ -38,6 +38,8 @@ pub struct JointReading {
     pub parts: Vec<String>,
     /// How many of the parts stand on the left side of a relation; 0 where they stand in one formula.
     pub left: usize,
+    /// For each part the function whose argument, without brackets, reaches to its end.
+    pub open: Vec<Option<String>>,
     /// For each component the parts that have a dimension there: 0 has none of its own.
     pub components: Vec<Vec<(usize, Affine)>>,
 }
@@ -51,8 +53,8 @@ pub struct LinkReading {
     pub joints: Vec<JointReading>,
     /// Dimensions that operations imply to be equal beside those that are printed, as in a product of vectors.
     pub implied: Vec<(Affine, Affine)>,
-    /// Whether words stand in a term, so that its dimension is not known.
-    pub words: bool,
+    /// Whether a term has its unit printed, so that it is not compared.
+    pub units: bool,
 }
 
 impl LinkReading {
@@ -73,10 +75,11 @@ pub fn read(scope: &Scope, clause: &Clause, mapped: bool, quantities: &mut Quant
     Elaborator::new(&mut world, scope, Vec::new(), true).build_bases();
     let terms = printed_terms(&mut world, scope, clause).ok()?;
     let joints = world.take_joints();
-    let words = terms.iter().any(|t| t.words);
-    let left = terms.iter().filter(|t| t.left && !t.words).count();
-    let parts = terms.into_iter().filter(|t| !t.words).map(|t| (t.latex, t.value)).collect();
-    let top = Joint { role: Role::Sum, parts };
+    let units = terms.iter().any(|t| t.unit);
+    let terms: Vec<PrintedTerm> = terms.into_iter().filter(|t| !t.unit).collect();
+    let left = terms.iter().filter(|t| t.left).count();
+    let open = terms.iter().map(|t| t.open.clone()).collect();
+    let top = Joint { role: Role::Sum, parts: terms.into_iter().map(|t| (t.latex, t.value)).collect() };
 
     let mut walk = Walk::new(&world, quantities);
     let mut read: Vec<JointReading> = Vec::new();
@@ -88,11 +91,12 @@ pub fn read(scope: &Scope, clause: &Clause, mapped: bool, quantities: &mut Quant
                 .iter()
                 .any(|r| r.role == joint.role && r.parts.iter().eq(joint.parts.iter().map(|(latex, _)| latex)))
         {
-            read.extend(walk.joint(joint, 0));
+            read.extend(walk.joint(joint));
         }
     }
-    read.push(walk.joint(&top, left)?);
-    Some(LinkReading { latex: clause.latex(), joints: read, implied: walk.implied, words })
+    let top = walk.joint(&top)?;
+    read.push(JointReading { left, open, ..top });
+    Some(LinkReading { latex: clause.latex(), joints: read, implied: walk.implied, units })
 }
 
 fn compares(rel: Rel) -> bool {
@@ -117,7 +121,7 @@ impl<'w> Walk<'w> {
     }
 
     /// `None` where the parts have different shapes: that is another finding.
-    fn joint(&mut self, joint: &Joint, left: usize) -> Option<JointReading> {
+    fn joint(&mut self, joint: &Joint) -> Option<JointReading> {
         let zero = |v: &Value| matches!(v, Value::Scalar(e) if self.world.graph.is_zero(*e));
         let shapes = joint.parts.iter().filter(|(_, v)| !zero(v)).map(|(_, v)| v.components().len());
         let count = shapes.clone().max().unwrap_or(0);
@@ -130,8 +134,9 @@ impl<'w> Walk<'w> {
                 component.extend(self.dimension(e).map(|a| (part, a)));
             }
         }
-        let parts = joint.parts.iter().map(|(latex, _)| latex.clone()).collect();
-        Some(JointReading { role: joint.role.clone(), parts, left, components })
+        let parts: Vec<String> = joint.parts.iter().map(|(latex, _)| latex.clone()).collect();
+        let open = vec![None; parts.len()];
+        Some(JointReading { role: joint.role.clone(), parts, left: 0, open, components })
     }
 
     /// Operands before operations, without recursion.
