@@ -3,6 +3,8 @@
 //!
 //!     cargo bench --bench tape --features rug
 
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
 use divan::{Bencher, black_box};
 use kenzan::expr::{Expr, Func, Graph, SymId, Tape, Workspace};
 use kenzan::number::{Df64, Lanes, Number, Tracked};

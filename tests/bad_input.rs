@@ -2,7 +2,9 @@
 //! panics, still judges the other equations, and leaves an older report alone.
 //!
 //! The notes are in `tests/bad`; the messages are snapshots, in which no path of the machine and no time stands.
-#![allow(missing_docs, clippy::unwrap_used)]
+
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+#![allow(missing_docs)]
 
 use std::path::{Path, PathBuf};
 use std::process::Command;

@@ -3,6 +3,8 @@
 //! A test passes where the verdict is the one that the notes' annotation expects, and where an equation is expected to
 //! fail, its correction holds. The verdict itself is the checker's: see `verdicts.rs` for tests that it can fail.
 
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
 use std::path::Path;
 use std::process::ExitCode;
 use std::sync::Arc;

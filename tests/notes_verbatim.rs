@@ -1,6 +1,7 @@
 //! The bundled notes print what the originals print: every display in order, and every inline formula at its place,
 //! blanks aside. The originals are not part of the repository; without them this part is skipped.
 
+#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 #![allow(clippy::unwrap_used, reason = "a test")]
 
 use kenzan::document::{Document, read};

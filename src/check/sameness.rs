@@ -25,6 +25,9 @@ use super::random::{Random, draw};
 use super::sampling::PairValue;
 use super::system;
 
+/// A state's values with the original's and the mutant's residuals there.
+type SampledState = (Vec<Tracked<Df64>>, Vec<Sized>, Vec<Sized>);
+
 /// The number of states at which the residuals are compared.
 const STATES: usize = 24;
 /// The states that are tried for them: at some the sides may be no numbers.
@@ -107,7 +110,7 @@ fn residuals(source: &Source, world: &mut World, clause: &Clause) -> Option<Vec<
 struct Sample {
     symbols: Vec<SymId>,
     /// The symbols' values and the residuals on the left and right, state by state.
-    states: Vec<(Vec<Tracked<Df64>>, Vec<Sized>, Vec<Sized>)>,
+    states: Vec<SampledState>,
 }
 
 fn compare(world: &mut World, left: &[Expr], right: &[Expr], ordered: bool, identities: bool, random: Random) -> bool {

@@ -366,7 +366,7 @@ impl Bench {
 }
 
 fn pair_value(residual: &Tracked<Df64>, size: &Tracked<Df64>, zero: &Df64) -> PairValue<Df64> {
-    let (lhs, rhs) = (residual.clone(), Tracked::exact(zero.clone()));
+    let (lhs, rhs) = (residual.clone(), Tracked::exact(*zero));
     PairValue { residual: residual.clone(), lhs, rhs, scale_log2: size.value().log2_abs() }
 }
 
