@@ -1,7 +1,6 @@
 //! The same seed gives the same bytes, on any number of threads; another seed does not.
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
-#![allow(missing_docs, clippy::unwrap_used, clippy::panic)]
 
 use std::path::Path;
 use std::time::Instant;
