@@ -2,7 +2,6 @@
 //! blanks aside. The originals are not part of the repository; without them this part is skipped.
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
-#![allow(clippy::unwrap_used, reason = "a test")]
 
 use kenzan::document::{Document, read};
 use std::path::{Path, PathBuf};
