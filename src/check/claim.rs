@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use crate::document::{Span, Spanned};
-use crate::expr::{Expr, Node, SymId};
+use crate::expr::{Deadline, Expr, Node, SymId};
 use crate::latex::{
     ParseError,
     ast::{self, Rel},
@@ -70,6 +70,8 @@ pub struct Source<'b> {
     pub index: usize,
     /// The version of it.
     pub version: Version,
+    /// When the time for it is used up.
+    pub deadline: Deadline,
 }
 
 impl Source<'_> {
@@ -79,7 +81,7 @@ impl Source<'_> {
 
     /// Builds the claim of a clause of the equation. `known` are clauses of the same equation that are definitions.
     pub fn claim(&self, clause: &Clause, scope: &Scope, known: &[Clause]) -> Result<Claim, Obstacle> {
-        let mut world = World::new();
+        let mut world = World::until(self.deadline);
         // A premise from another section that speaks of the same basis means this one.
         Elaborator::new(&mut world, scope, Vec::new(), true).build_bases();
         let typed = self.branches(&mut world, scope, clause).map_err(Obstacle::Link)?;
@@ -112,6 +114,7 @@ impl Source<'_> {
         let bound = bound.into_iter().map(|s| world.graph.info(s).base).collect();
         premises.keep_related(&world.graph, &targets, mentioned);
         premises.close_in_time(&mut world.graph, &targets);
+        world.check(&clause.lhs.span).map_err(Obstacle::Link)?;
         let (lhs_text, rhs_text) = typed.first().map(|l| (l.lhs_text.clone(), l.rhs_text.clone())).unwrap_or_default();
         Ok(Claim { world, rel: clause.rel, branches, premises, solve, small, lhs_text, rhs_text, condition, bound })
     }

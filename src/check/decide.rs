@@ -128,7 +128,11 @@ fn decide<N: Real>(
 ) -> LinkJudgement {
     let mut tally = Tally { branch_hit: vec![false; sampler.claim.branches.len()], ..Tally::default() };
     let mut work = Workspace::default();
+    let deadline = sampler.deadline();
     for (k, state) in states.iter().enumerate() {
+        if deadline.has_passed() {
+            break;
+        }
         match sampler.evaluate::<N>(state, cx, &mut work) {
             Some(branches) => tally.add(k, &branches),
             None => tally.open += 1,
@@ -145,6 +149,8 @@ fn decide<N: Real>(
             let (value, pair) = (&branches[0][pair], &sampler.claim.branches[0][pair]);
             judgement.counterexample = Some(sampler.counterexample(&small.state, cx, pair, value, &small.idle));
         }
+    } else if deadline.has_passed() {
+        judgement.reason = Some(deadline.used_up("evaluating both sides"));
     } else if let Some(branch) = tally.branch_hit.iter().position(|hit| !hit).filter(|_| tally.open == 0) {
         let sign = if branch == 0 { "upper" } else { "lower" };
         judgement.verdict = Verdict::Fails;
@@ -221,7 +227,11 @@ pub fn inequality(mut judgement: LinkJudgement, mut claim: Claim, name: &str, op
     let mut work = Workspace::default();
     let mut condition_work = Workspace::default();
     let mut seen = [0usize; 2];
+    let deadline = sampler.deadline();
     for state in &states {
+        if deadline.has_passed() {
+            break;
+        }
         let Some(branches) = sampler.evaluate::<Df64>(state, &(), &mut work) else { continue };
         let Some(values) = sampler.system.refine::<Df64>(state, &()) else { continue };
         let inputs: Vec<_> = tape.inputs().iter().map(|s| values[s.index()].clone()).collect();
@@ -249,7 +259,11 @@ pub fn inequality(mut judgement: LinkJudgement, mut claim: Claim, name: &str, op
     judgement.strength = Some(Strength::Numeric);
     judgement.inexact = Some("a prime field has no order".into());
     judgement.verdict = if judgement.failing_states > 0 { Verdict::Fails } else { Verdict::Holds };
-    if judgement.states == 0 || condition.is_some() && seen.contains(&0) {
+    if judgement.failing_states == 0 && deadline.has_passed() {
+        judgement.verdict = Verdict::Undecided;
+        judgement.strength = None;
+        judgement.reason = Some(deadline.used_up("evaluating both sides"));
+    } else if judgement.states == 0 || condition.is_some() && seen.contains(&0) {
         judgement.verdict = Verdict::Undecided;
         judgement.strength = None;
         judgement.reason = Some("the states lie all on one side of the condition: widen the ranges".into());

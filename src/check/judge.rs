@@ -1,9 +1,10 @@
 //! The judgement on an equation: each link of its chain is claimed, evaluated and decided; the worst decides.
 
 use std::collections::HashSet;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use crate::document::Problem;
+use crate::expr::Deadline;
 use crate::latex::ast::{Kind, Node, Rel};
 use crate::semantics::{Clause, ErrorKind, Scope, Side, Statement};
 
@@ -23,11 +24,14 @@ pub struct Options {
     pub states: usize,
     /// The precision in bits to decide in, where one is asked for (feature `rug`); otherwise double-double.
     pub precision: Option<u32>,
+    /// The time that each stage may take for an equation: judging it, judging its correction, trying its mutants,
+    /// searching what was meant. `None` for no limit.
+    pub budget: Option<Duration>,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Options { seed: 1, states: 64, precision: None }
+        Options { seed: 1, states: 64, precision: None, budget: None }
     }
 }
 
@@ -88,6 +92,7 @@ pub fn blank(book: &Book, index: usize) -> Judgement {
         as_expected: false,
         sensitivity: None,
         suggestions: Vec::new(),
+        unfinished: None,
         micros: 0,
         problem: None,
     }
@@ -153,7 +158,8 @@ pub(super) fn judge_version(book: &Book, index: usize, version: Version, options
             return Outcome::without_links(verdict, reason, Some(trouble::unclear(entry, version, &unclear)));
         }
     };
-    judge_statement(&Source { book, index, version }, &statement, options)
+    let deadline = Deadline::after(options.budget);
+    judge_statement(&Source { book, index, version, deadline }, &statement, options)
 }
 
 /// Judges what an equation states, in the words of any version of it.

@@ -90,15 +90,16 @@ impl Search<'_, '_> {
     /// R₁ + R₂ - R = 0. These are looked up, not tried, and only what is found is judged.
     fn sums(&mut self, from: &Candidate, singles: &[Candidate]) -> Vec<Candidate> {
         let Some(own) = self.trial.failing_residuals(&from.tree) else { return Vec::new() };
+        let deadline = self.trial.deadline();
         let mut values: Vec<(Vec<f64>, &Candidate)> = Vec::new();
-        for single in singles {
+        for single in singles.iter().take_while(|_| !deadline.has_passed()) {
             if let Some(v) = self.trial.failing_residuals(&single.tree).filter(|v| v.len() == own.len()) {
                 values.push((v, single));
             }
         }
         let size = own.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
         let mut pairs = Vec::new();
-        for (k, (v, a)) in values.iter().enumerate() {
+        for (k, (v, a)) in values.iter().enumerate().take_while(|_| !deadline.has_passed()) {
             for (w, b) in &values[k + 1..] {
                 let meets = |i: usize| (v[i] + w[i] - own[i]).abs() <= 1e-9 * (size + v[i].abs());
                 if (0..own.len()).all(meets) {
@@ -123,7 +124,7 @@ impl Search<'_, '_> {
         order.sort_unstable();
         let mut found = Vec::new();
         for (_, _, i, j) in order {
-            if self.left == 0 || found.len() >= MOST {
+            if self.left == 0 || found.len() >= MOST || self.trial.deadline().has_passed() {
                 break;
             }
             let Some(mut pair) = likely[i].and(likely[j]) else { continue };
@@ -142,7 +143,7 @@ impl Search<'_, '_> {
         all.sort_by_key(|m| cost(m.edit.kind));
         let mut found = Vec::new();
         for mutant in all {
-            if self.left == 0 {
+            if self.left == 0 || self.trial.deadline().has_passed() {
                 break;
             }
             if !self.seen.insert(to_latex(&mutant.tree)) {

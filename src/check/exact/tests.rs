@@ -3,6 +3,7 @@
 use std::path::Path;
 
 use super::super::claim::Source;
+use crate::expr::Deadline;
 use super::super::sampling::Sampler;
 use super::super::verdict::{Judgement, LinkJudgement, Strength, Verdict};
 use super::super::{Book, Options, Version, judge};
@@ -177,7 +178,7 @@ fn the_misprints_of_the_bundled_notes() {
             if link.verdict != Verdict::Fails || approximation {
                 continue;
             }
-            let source = Source { book: &book, index, version: Version::Printed };
+            let source = Source { book: &book, index, version: Version::Printed, deadline: Deadline::NEVER };
             let Ok(mut claim) = source.claim(clause, &entry.scope, &[]) else { continue };
             let mut random = Random::new(1, &link.latex);
             let Ok(sampler) = Sampler::new(&mut claim, &mut random, &[]) else { continue };
