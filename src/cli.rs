@@ -1,5 +1,6 @@
 //! The command line: arguments, progress, exit codes.
 
+use std::collections::HashSet;
 use std::io::{IsTerminal, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
@@ -179,9 +180,10 @@ fn verify_command(request: &Request, out: &std::path::Path, format: Format) -> m
 fn show_problems(verified: &Verified) {
     let surprising = verified.report.equations.iter().filter(|e| !e.as_expected);
     let mut problems: Vec<&Problem> = verified.problems.iter().collect();
+    let told: HashSet<(usize, usize)> = problems.iter().map(|p| (p.span.start, p.span.end)).collect();
     for problem in surprising.flat_map(|e| e.problems()) {
         // A premise that does not exist has been told already.
-        if !verified.problems.iter().any(|p| p.span == problem.span) {
+        if !told.contains(&(problem.span.start, problem.span.end)) {
             problems.push(problem);
         }
     }

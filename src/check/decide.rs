@@ -44,7 +44,9 @@ fn finding<N: Real>(value: &PairValue<N>, scale_log2: f64) -> Finding {
         return Finding::Differ((size - scale_log2).exp2());
     }
     let bits = scale_log2 - value.error_log2().max(size);
-    if scale_log2 == f64::NEG_INFINITY || bits >= LEAST_BITS { Finding::Agree(bits.min(1e6)) } else { Finding::Open }
+    // Where nothing is left of the terms they must be zero, not too small for the numbers.
+    let zero = scale_log2 == f64::NEG_INFINITY && value.error_log2() == f64::NEG_INFINITY;
+    if zero || bits >= LEAST_BITS { Finding::Agree(bits.min(1e6)) } else { Finding::Open }
 }
 
 /// The findings of all pairs of a branch; vectors are measured by their largest component.

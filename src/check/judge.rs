@@ -143,7 +143,7 @@ pub(super) fn judge_version(book: &Book, index: usize, version: Version, options
     let entry = &book.entries[index];
     if let Some(circle) = book.circle(index) {
         // The document's own problems say where.
-        let reason = format!("the premises go in a circle: {}", circle.join(" → "));
+        let reason = format!("the premises go in a circle: {circle}");
         return Outcome::without_links(Verdict::Undecided, reason, None);
     }
     let statement = match book.statement(index, version) {
@@ -369,11 +369,16 @@ fn obstructed(mut judgement: LinkJudgement, source: &Source, clause: &Clause, ob
 }
 
 /// A message with the piece of LaTeX it is about.
+/// The most of a formula that is quoted in a reason, in bytes.
+const LONGEST_PIECE: usize = 120;
+
 fn place(latex: &str, message: &str, span: &std::ops::Range<usize>, help: Option<&str>) -> String {
     let piece = latex.get(span.clone()).unwrap_or_default().trim();
     let mut text = message.to_owned();
     if !piece.is_empty() && !message.contains(piece) {
-        text.push_str(&format!(", at `{piece}`"));
+        let end = piece.floor_char_boundary(LONGEST_PIECE);
+        let more = if end < piece.len() { " …" } else { "" };
+        text.push_str(&format!(", at `{}{more}`", &piece[..end]));
     }
     if let Some(help) = help {
         text.push_str(&format!(" ({help})"));

@@ -2,6 +2,7 @@
 
 mod book;
 mod choice;
+mod circle;
 mod claim;
 mod decide;
 pub mod dimension;

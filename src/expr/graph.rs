@@ -115,6 +115,8 @@ pub struct Graph {
     names: HashMap<String, SymId>,
     derivatives: HashMap<(SymId, u32), SymId>,
     deadline: Deadline,
+    /// The most nodes, where that is less than [`MOST_NODES`].
+    room: Option<usize>,
     cut: Option<Cut>,
 }
 
@@ -128,6 +130,11 @@ impl Graph {
     /// An empty graph that is cut short when the time is used up.
     pub fn until(deadline: Deadline) -> Self {
         Graph { deadline, ..Self::default() }
+    }
+
+    /// An empty graph that is cut short when it has so many nodes.
+    pub fn with_room(nodes: usize) -> Self {
+        Graph { room: Some(nodes.min(MOST_NODES)), ..Self::default() }
     }
 
     /// The moment at which the time is used up.
@@ -233,7 +240,7 @@ impl Graph {
             Entry::Vacant(new) => {
                 let e = *new.insert(Expr(self.nodes.len() as u32));
                 self.nodes.push(node);
-                if self.nodes.len() >= MOST_NODES {
+                if self.nodes.len() >= self.room.unwrap_or(MOST_NODES) {
                     self.cut = Some(Cut::Size);
                 } else if self.nodes.len().is_multiple_of(NODES_BETWEEN_LOOKS) {
                     self.cut_short();

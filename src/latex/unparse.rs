@@ -281,6 +281,10 @@ fn matrix(env: MatrixEnv, rows: &[Vec<Node>], out: &mut String) {
         out.push_str(if i > 0 { " \\\\ " } else { " " });
         joined(row, Level::List, " & ", out);
     }
+    // A blank last row would be taken for the end of the row before.
+    if matches!(rows.last().map(Vec::as_slice), Some([Node { kind: Kind::Empty, .. }])) {
+        out.push_str(" \\\\");
+    }
     out.push_str(&format!(" \\end{{{name}}}"));
 }
 

@@ -13,6 +13,9 @@ use super::world::{Facts, Joint, Quantity, Role, World};
 /// The most that is told of how a value was read, in bytes: otherwise a sum of n terms takes n² to read.
 const LONGEST_TEXT: usize = 4000;
 
+/// How many names may stand for each other one after another.
+const MOST_ALIASES: usize = 20;
+
 /// A value with the way it was read, every operation in brackets.
 #[derive(Clone, Debug)]
 pub struct Typed {
@@ -43,12 +46,14 @@ pub struct Elaborator<'w> {
     pub(super) indices: Vec<(String, i64)>,
     /// Whether ± means +, for a formula with branches.
     pub(super) upper: bool,
+    /// How many names stand for names here.
+    aliases: usize,
 }
 
 impl<'w> Elaborator<'w> {
     /// An elaborator with the given indices fixed, on the upper or lower branch of ±.
     pub fn new(world: &'w mut World, scope: &'w Scope, indices: Vec<(String, i64)>, upper: bool) -> Self {
-        Elaborator { world, scope, indices, upper }
+        Elaborator { world, scope, indices, upper, aliases: 0 }
     }
 
     /// The value of an expression.
@@ -330,9 +335,9 @@ impl<'w> Elaborator<'w> {
                 Some(v) => Value::Scalar(self.world.graph.int(v)),
                 None => return Err(Error::undeclared(format!("the index {name} has no value here"), &node.span)),
             },
-            EntryKind::Same(other) => return self.value(other).map(Some),
+            EntryKind::Same(other) => return self.alias(&name, other, &node.span).map(Some),
             EntryKind::Component { of, basis, axis } => {
-                let whole = self.value(of)?;
+                let whole = self.alias(&name, of, &node.span)?;
                 let component = self.component(&whole, basis, *axis, &node.span)?;
                 return Ok(Some(Typed::new(component.value, name)));
             }
@@ -343,6 +348,18 @@ impl<'w> Elaborator<'w> {
             }
         };
         Ok(Some(Typed::new(value, shown_name(node))))
+    }
+
+    /// What a name stands for, which may be a name that stands for something.
+    fn alias(&mut self, name: &str, other: &Node, span: &Span) -> Result<Typed> {
+        if self.aliases >= MOST_ALIASES {
+            let message = format!("{name} stands for a name that stands for a name, and so on for {MOST_ALIASES} times");
+            return Err(Error::unsupported(message, span).with_help("do the declarations with `same` go in a circle?"));
+        }
+        self.aliases += 1;
+        let value = self.value(other);
+        self.aliases -= 1;
+        value
     }
 
     fn scalar_symbol(&mut self, entry: &Entry, name: &str, tex: String) -> Expr {

@@ -164,6 +164,11 @@ pub fn mentions(scope: &Scope, node: &Node, found: &mut std::collections::HashSe
     if scope.get(&pattern).is_some() {
         found.insert(pattern);
     }
+    // In `I_1^2` stands `I_1`.
+    if let Kind::Scripts { base, primes, sub: Some(sub), sup: Some(_) } = &node.kind {
+        let kind = Kind::Scripts { base: base.clone(), primes: *primes, sub: Some(sub.clone()), sup: None };
+        mentions(scope, &Node::new(kind, node.span.clone()), found);
+    }
     for child in node.children() {
         mentions(scope, child, found);
     }

@@ -12,6 +12,9 @@ use super::value::Value;
 /// The most values that are worked out to write a formula out: about a second.
 const MOST_STEPS: usize = 500_000;
 
+/// The most nodes where joints are taken down: dimensions are looked at for every equation, and decide none.
+const MOST_NODES_WITH_JOINTS: usize = MOST_NODES / 16;
+
 /// What is known of a symbol of the graph.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Facts {
@@ -118,7 +121,7 @@ impl World {
 
     /// An empty world that takes down which values the formulas join.
     pub fn with_joints() -> Self {
-        World { joints: Some(Vec::new()), ..World::default() }
+        World { joints: Some(Vec::new()), graph: Graph::with_room(MOST_NODES_WITH_JOINTS), ..World::default() }
     }
 
     /// The joints taken down since they were last taken, inner ones before those around them.
