@@ -213,12 +213,14 @@ fn a_browser_runs_nothing() {
     let Some(dom) = rendered(&browser, "control", control) else { return println!("skipped: the browser does not start") };
     assert_eq!(title(&dom), "owned", "the browser runs scripts");
     let page = html::render(&run(), report::Options { times: false }).unwrap();
+    // The browser writes the same text with fewer escapes, and NUL as a sign for what it cannot read.
+    let expected = title(&page).replace("&quot;", "\"").replace("&#39;", "'").replace('\0', "\u{fffd}");
     let dom = rendered(&browser, "report", &page).expect("the browser that showed one page shows the other");
-    assert_eq!(title(&dom), title(&page));
+    assert_eq!(title(&dom), expected);
     // Without its policy the page runs nothing either: the policy is a second wall.
     let (before, rest) = page.split_once("<meta http-equiv=").unwrap();
     let (_, after) = rest.split_once('>').unwrap();
     let open = rendered(&browser, "open", &format!("{before}{after}")).unwrap();
-    assert_eq!(title(&open), title(&page));
+    assert_eq!(title(&open), expected);
     assert!(!open.contains("<iframe") && !open.contains("<img") && !open.contains("<script"));
 }

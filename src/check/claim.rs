@@ -115,7 +115,6 @@ impl Source<'_> {
         premises.keep_related(&world.graph, &targets, mentioned);
         premises.close_in_time(&mut world.graph, &targets);
         world.check(&clause.lhs.span).map_err(Obstacle::Link)?;
-        if std::env::var_os("NODES").is_some() { eprintln!("NODES {}", world.graph.len()); }
         let (lhs_text, rhs_text) = typed.first().map(|l| (l.lhs_text.clone(), l.rhs_text.clone())).unwrap_or_default();
         Ok(Claim { world, rel: clause.rel, branches, premises, solve, small, lhs_text, rhs_text, condition, bound })
     }
