@@ -63,6 +63,7 @@ pub enum Obstacle {
 }
 
 /// What a claim is made from.
+#[derive(Clone, Copy)]
 pub struct Source<'b> {
     /// The document.
     pub book: &'b Book,
@@ -70,9 +71,21 @@ pub struct Source<'b> {
     pub index: usize,
     /// The version of it.
     pub version: Version,
+    /// Which of its links (from 0), where it has premises of its own.
+    pub link: Option<usize>,
 }
 
-impl Source<'_> {
+impl<'b> Source<'b> {
+    /// For an equation as a whole.
+    pub fn new(book: &'b Book, index: usize, version: Version) -> Self {
+        Source { book, index, version, link: None }
+    }
+
+    /// For one of its links.
+    pub fn at(&self, link: usize) -> Self {
+        Source { link: Some(link), ..*self }
+    }
+
     fn scope(&self) -> &Scope {
         &self.book.entries[self.index].scope
     }
@@ -130,10 +143,10 @@ impl Source<'_> {
     fn given(&self, world: &mut World) -> Result<Vec<(Expr, Expr)>, Obstacle> {
         let entry = &self.book.entries[self.index];
         let mut pairs = Vec::new();
-        for text in entry.list(|a| &a.where_) {
+        for text in entry.wheres(self.link) {
             self.add_text(world, text, &mut pairs)?;
         }
-        for reference in entry.list(|a| &a.given) {
+        for reference in entry.given(self.link) {
             self.add_equation(world, reference, &mut pairs)?;
         }
         pairs.extend(self.assumed(world)?);
@@ -216,7 +229,7 @@ impl Source<'_> {
     }
 
     /// The clauses of the equations that this one is said to solve.
-    pub fn solved(&self) -> Result<Vec<(Clause, &Scope)>, Obstacle> {
+    pub fn solved(&self) -> Result<Vec<(Clause, &'b Scope)>, Obstacle> {
         let mut clauses = Vec::new();
         for reference in self.book.entries[self.index].list(|a| &a.solves) {
             let obstacle =

@@ -75,8 +75,8 @@ pub fn blank(book: &Book, index: usize) -> Judgement {
         states: 0,
         as_printed: entry.reading.is_none(),
         reading: entry.reading.as_ref().map(|f| f.latex.clone()),
-        given: entry.list(|a| &a.given).iter().chain(entry.list(|a| &a.solves)).map(|g| g.value.clone()).collect(),
-        assumptions: entry.list(|a| &a.where_).iter().map(|p| p.value.clone()).collect(),
+        given: entry.given(None).into_iter().chain(entry.list(|a| &a.solves)).map(|g| g.value.clone()).collect(),
+        assumptions: entry.wheres(None).iter().map(|p| p.value.clone()).collect(),
         because: annotation.and_then(|a| a.because.clone()),
         reason: None,
         links: Vec::new(),
@@ -153,7 +153,7 @@ pub(super) fn judge_version(book: &Book, index: usize, version: Version, options
             return Outcome::without_links(verdict, reason, Some(trouble::unclear(entry, version, &unclear)));
         }
     };
-    judge_statement(&Source { book, index, version }, &statement, options)
+    judge_statement(&Source::new(book, index, version), &statement, options)
 }
 
 /// Judges what an equation states, in the words of any version of it.
@@ -168,7 +168,8 @@ pub(super) fn judge_statement(source: &Source, statement: &Statement, options: &
     }
     let mut known: Vec<Clause> = Vec::new();
     let mut links = Vec::new();
-    for clause in &statement.clauses {
+    for (k, clause) in statement.clauses.iter().enumerate() {
+        let source = &source.at(k);
         if defines(book, index, clause) {
             links.push(match source.claim(clause, &entry.scope, &known) {
                 Ok(_) => definition(clause),
@@ -229,7 +230,7 @@ pub(super) fn defines(book: &Book, index: usize, clause: &Clause) -> bool {
         return false;
     }
     let entry = &book.entries[index];
-    let premises = entry.list(|a| &a.where_).iter().chain(&entry.scope.assume);
+    let premises = entry.wheres(None).into_iter().chain(&entry.scope.assume);
     let premises: Vec<Formula> = premises.map(|p| Formula::new(&p.value)).collect();
     let new_name = |node: &Node| {
         let pattern = crate::semantics::pattern_of(&entry.scope, node);
@@ -390,7 +391,7 @@ fn kind(book: &Book, index: usize) -> String {
         "inequality"
     } else if a.maps.is_some() {
         "transformation"
-    } else if !a.given.is_empty() || !a.where_.is_empty() {
+    } else if !entry.given(None).is_empty() || !entry.wheres(None).is_empty() {
         "derived"
     } else {
         "identity"

@@ -85,7 +85,7 @@ impl<'b> Trial<'b> {
         links: &[LinkJudgement],
         options: &Options,
     ) -> Option<Self> {
-        let source = Source { book, index, version };
+        let source = Source::new(book, index, version);
         let statement = book.statement(index, version).ok()?;
         let entry = &book.entries[index];
         let solution = !entry.list(|a| &a.solves).is_empty();
@@ -94,7 +94,7 @@ impl<'b> Trial<'b> {
         for (k, clause) in statement.clauses.iter().enumerate().filter(|_| !solution) {
             let verdict = links.get(k).map_or(Verdict::Undecided, |l| l.verdict);
             let bench =
-                (verdict != Verdict::Definition).then(|| Bench::new(&source, clause, &known, options)).flatten();
+                (verdict != Verdict::Definition).then(|| Bench::new(&source.at(k), clause, &known, options)).flatten();
             if verdict == Verdict::Definition {
                 known.push(clause.clone());
             }
@@ -221,7 +221,7 @@ impl<'b> Trial<'b> {
         let known: Vec<Clause> =
             definitions.filter(|(l, _)| l.verdict == Verdict::Definition).map(|(_, c)| c.clone()).collect();
         self.with_rising_states(&mut |options| {
-            let judged = judge_link(&self.source, clause, &entry.scope, &known, options);
+            let judged = judge_link(&self.source.at(k), clause, &entry.scope, &known, options);
             (judged.verdict, judged.strength)
         })
     }

@@ -203,7 +203,7 @@ fn cost(kind: EditKind) -> u32 {
 fn factors(book: &Book, index: usize, tree: &Node) -> Vec<Node> {
     let entry = &book.entries[index];
     let mut near: Vec<&Node> = vec![tree];
-    let given = entry.list(|a| &a.given).iter().chain(entry.list(|a| &a.solves));
+    let given = entry.given(None).into_iter().chain(entry.list(|a| &a.solves));
     let indices = given.filter_map(|g| book.find(&g.value)).map(|(k, _)| k).chain(entry.previous);
     near.extend(indices.filter_map(|k| book.entries[k].formula(Version::Corrected).tree.as_ref().ok()));
     let mut scalars: Vec<Node> = Vec::new();

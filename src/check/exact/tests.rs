@@ -177,7 +177,7 @@ fn the_misprints_of_the_bundled_notes() {
             if link.verdict != Verdict::Fails || approximation {
                 continue;
             }
-            let source = Source { book: &book, index, version: Version::Printed };
+            let source = Source::new(&book, index, Version::Printed);
             let Ok(mut claim) = source.claim(clause, &entry.scope, &[]) else { continue };
             let mut random = Random::new(1, &link.latex);
             let Ok(sampler) = Sampler::new(&mut claim, &mut random, &[]) else { continue };
