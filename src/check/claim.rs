@@ -253,7 +253,7 @@ impl<'b> Source<'b> {
     }
 
     /// A symbol named in an annotation.
-    fn symbol(&self, world: &mut World, text: &Spanned<String>) -> Result<Value, Obstacle> {
+    pub(super) fn symbol(&self, world: &mut World, text: &Spanned<String>) -> Result<Value, Obstacle> {
         let tree = Formula::new(&text.value).tree.map_err(|e| broken(text, &e))?;
         let mut elaborator = Elaborator::new(world, self.scope(), Vec::new(), true);
         elaborator.value(&tree).map(|t| t.value).map_err(|e| unclear(text, &e))

@@ -10,6 +10,7 @@ use crate::semantics::{Clause, ErrorKind, Scope, Side, Statement};
 use super::book::{Book, Entry, Formula, Unclear, Version};
 use super::claim::{Claim, Obstacle, Source, obstacle_text, unclear_text};
 use super::decide;
+use super::general;
 use super::order;
 use super::trouble;
 use super::verdict::{Correction, DimensionStatus, Judgement, LinkJudgement, Strength, Verdict};
@@ -208,7 +209,7 @@ fn judge_solution(source: &Source, clauses: &[Clause], options: &Options) -> Out
             return Outcome::without_links(Verdict::Undecided, obstacle_text(&obstacle), problem);
         }
     };
-    let links: Vec<LinkJudgement> = solved
+    let mut links: Vec<LinkJudgement> = solved
         .iter()
         .map(|(clause, scope)| {
             let mut link = judge_link(source, clause, scope, clauses, options);
@@ -216,6 +217,17 @@ fn judge_solution(source: &Source, clauses: &[Clause], options: &Options) -> Out
             link
         })
         .collect();
+    if let (Verdict::Holds, Some(clause)) = (worst(&links), clauses.first()) {
+        let generality = match general::defect(source, clauses, &solved) {
+            Ok(None) => None,
+            Ok(Some(defect)) => {
+                let (verdict, strength) = (Verdict::Fails, Some(Strength::Numeric));
+                Some(LinkJudgement { verdict, strength, reason: Some(defect), ..unjudged(clause) })
+            }
+            Err(obstacle) => Some(obstructed(unjudged(clause), source, clause, &obstacle)),
+        };
+        links.extend(generality);
+    }
     Outcome::of(links)
 }
 

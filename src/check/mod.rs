@@ -7,6 +7,7 @@ mod decide;
 pub mod dimension;
 mod elimination;
 pub mod exact;
+mod general;
 pub mod inspect;
 mod judge;
 mod newton;

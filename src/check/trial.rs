@@ -133,9 +133,13 @@ impl<'b> Trial<'b> {
             .unwrap_or(Outcome::Holds)
     }
 
-    /// Whether a formula says the same as the original, whatever the premises are: see [`sameness`].
+    /// Whether a formula that holds says the same as the original, whatever the premises are: see [`sameness`].
     pub fn is_equivalent(&self, tree: &Node) -> bool {
         let Ok(statement) = self.source.book.statement_of(self.source.index, tree) else { return false };
+        // An equation has one general solution, however its constants are named.
+        if self.solution && !self.source.book.entries[self.source.index].list(|a| &a.general).is_empty() {
+            return true;
+        }
         let (own, other) = (&self.statement.clauses, &statement.clauses);
         self.all_same(own, other) || self.all_same(&sameness::split(own), &sameness::split(other))
     }

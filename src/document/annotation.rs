@@ -38,6 +38,8 @@ pub struct EquationAnnotation {
     pub solve: Vec<Spanned<String>>,
     /// Labels of the equations that this one is claimed to solve.
     pub solves: Vec<Spanned<String>>,
+    /// The arbitrary constants of a solution that is claimed to be general.
+    pub general: Vec<Spanned<String>>,
     /// `where`: premises that the prose states.
     pub where_: Vec<Spanned<String>>,
     /// Premises of single links.
@@ -86,13 +88,14 @@ pub struct LinkPremises {
 }
 
 /// The keys of an equation's annotation, those of declarations not included.
-pub const KEYS: [&str; 21] = [
+pub const KEYS: [&str; 22] = [
     "label",
     "for",
     "kind",
     "given",
     "solve",
     "solves",
+    "general",
     "where",
     "link",
     "range",
@@ -164,6 +167,7 @@ pub(super) fn equation(table: &Table, span: Span, reader: &mut Reader) -> Equati
             "given" => found.given = reader.texts(key, value),
             "solve" => found.solve = reader.texts(key, value),
             "solves" => found.solves = reader.texts(key, value),
+            "general" => found.general = reader.texts(key, value),
             "where" => found.where_ = reader.texts(key, value),
             "link" => found.link = links(key, value, reader),
             "range" => found.range = ranges(key, value, reader),
