@@ -257,3 +257,13 @@ fn a_general_solution_has_all_its_constants() {
     assert_eq!(solve(r"a \cos \omega t + b \cos \omega t", r#"["a", "b"]"#), Verdict::Fails);
     assert_eq!(solve(r"a \cos \omega t + b \sin 2 \omega t", r#"["a", "b"]"#), Verdict::Fails);
 }
+
+#[test]
+fn premises_that_say_what_is_greater_restrict_the_states() {
+    assert_eq!(verdict(r"\sqrt{(a - b)^2} = a - b", "where = 'a > b'"), Verdict::Holds);
+    assert_eq!(verdict(r"\sqrt{(a - b)^2} = a - b", ""), Verdict::Fails);
+    assert_eq!(verdict(r"\sqrt{(a - b)^2} = a - b", "where = 'a < b'"), Verdict::Fails);
+    assert_eq!(verdict(r"(a - b)(b - c) > 0", "where = 'a > b > c'"), Verdict::Holds);
+    assert_eq!(verdict(r"(a - b)(b - c) > 0", "where = 'a > b < c'"), Verdict::Fails);
+    assert_eq!(verdict(r"a > b", "where = ['a > 2 c', 'c > 2 a']"), Verdict::Undecided);
+}

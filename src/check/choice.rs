@@ -29,6 +29,9 @@ pub fn preference(graph: &Graph, solve: &[SymId], s: SymId) -> (usize, u32, bool
     (wished, u32::MAX - info.order, !info.of_t, std::cmp::Reverse(s.index()))
 }
 
+/// The places of the residuals that are solved, and of the symbols that they are solved for.
+type Choice = (Vec<usize>, Vec<usize>);
+
 /// Chooses independent residuals (rows) and the symbols to solve them for (columns), by the ranks of the Jacobian at a
 /// point where all premises hold: elsewhere premises that follow from each other look independent.
 ///
@@ -41,7 +44,7 @@ pub fn choose(
     candidates: &[SymId],
     wish: &Wish,
     random: &mut Random,
-) -> Result<(Vec<usize>, Vec<usize>), NoState> {
+) -> Result<Choice, NoState> {
     if residuals.is_empty() {
         return Ok((Vec::new(), Vec::new()));
     }
@@ -54,7 +57,7 @@ pub fn choose(
     let (values, jacobian) = (Tape::compile(&world.graph, &sized), Tape::compile(&world.graph, &jacobian));
     let symbols = world.graph.symbols(residuals);
     let sources: BTreeMap<SymId, Source> = symbols.into_iter().map(|s| (s, source(world, s))).collect();
-    let mut best: Option<(usize, (Vec<usize>, Vec<usize>))> = None;
+    let mut best: Option<(usize, Choice)> = None;
     // The fewest symbols that will do are moved: what the premises determine, not the constants of the problem.
     for stage in 0..3 {
         let movable: Vec<usize> =

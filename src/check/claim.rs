@@ -51,6 +51,17 @@ pub struct Claim {
     pub condition: Option<(Rel, Expr, Expr)>,
     /// The bases of all symbols that the premises speak of, those left out as unrelated included.
     pub bound: BTreeSet<SymId>,
+    /// What must be greater or less than zero at a state.
+    pub ordered: Vec<(Rel, Expr)>,
+}
+
+/// What premises state, of scalars.
+#[derive(Clone, Debug, Default)]
+pub struct Stated {
+    /// What is equal.
+    pub equal: Vec<(Expr, Expr)>,
+    /// What is greater or less than zero.
+    pub ordered: Vec<(Rel, Expr)>,
 }
 
 /// Why a claim could not be made.
@@ -108,7 +119,7 @@ impl<'b> Source<'b> {
         self.ranges(&mut world)?;
 
         let kept: BTreeSet<SymId> = small.iter().map(|(s, _)| *s).collect();
-        let mut premises = Premises::new(&mut world.graph, &given, &kept);
+        let mut premises = Premises::new(&mut world.graph, &given.equal, &kept);
         let mut targets = Vec::new();
         // What the link speaks of before the premises are put in: these may leave nothing of it, and still contradict
         // each other there.
@@ -121,12 +132,16 @@ impl<'b> Source<'b> {
             targets.extend([pair.residual, pair.lhs, pair.rhs]);
         }
         targets.extend(small.iter().map(|(s, _)| world.graph.sym(*s)).collect::<Vec<_>>());
-        let bound = world.graph.symbols(&premises.residuals);
+        let ordered: Vec<(Rel, Expr)> =
+            given.ordered.iter().map(|(rel, e)| (*rel, premises.resolve(&mut world.graph, *e))).collect();
+        let bound: Vec<Expr> = ordered.iter().map(|(_, e)| *e).chain(premises.residuals.iter().copied()).collect();
+        let bound = world.graph.symbols(&bound);
         let bound = bound.into_iter().map(|s| world.graph.info(s).base).collect();
         premises.keep_related(&world.graph, &targets, mentioned);
         premises.close_in_time(&mut world.graph, &targets);
         let (lhs_text, rhs_text) = typed.first().map(|l| (l.lhs_text.clone(), l.rhs_text.clone())).unwrap_or_default();
-        Ok(Claim { world, rel: clause.rel, branches, premises, solve, small, lhs_text, rhs_text, condition, bound })
+        let rel = clause.rel;
+        Ok(Claim { world, rel, branches, premises, solve, small, lhs_text, rhs_text, condition, bound, ordered })
     }
 
     pub(super) fn branches(&self, world: &mut World, scope: &Scope, clause: &Clause) -> Result<Vec<TypedLink>, Error> {
@@ -139,39 +154,36 @@ impl<'b> Source<'b> {
         Ok(links)
     }
 
-    /// The pairs of equal scalars that the premises state.
-    fn given(&self, world: &mut World) -> Result<Vec<(Expr, Expr)>, Obstacle> {
+    /// What the premises state.
+    fn given(&self, world: &mut World) -> Result<Stated, Obstacle> {
         let entry = &self.book.entries[self.index];
-        let mut pairs = Vec::new();
+        let mut stated = Stated::default();
         for text in entry.wheres(self.link) {
-            self.add_text(world, text, &mut pairs)?;
+            self.add_text(world, text, &mut stated)?;
         }
         for reference in entry.given(self.link) {
-            self.add_equation(world, reference, &mut pairs)?;
+            self.add_equation(world, reference, &mut stated)?;
         }
-        pairs.extend(self.assumed(world)?);
-        Ok(pairs)
+        self.add_assumed(world, &mut stated)?;
+        Ok(stated)
     }
 
     /// The pairs of equal scalars that the section's assumptions state: what symbols are defined as, for the most part.
     pub(super) fn assumed(&self, world: &mut World) -> Result<Vec<(Expr, Expr)>, Obstacle> {
-        let mut pairs = Vec::new();
-        for text in &self.scope().assume {
-            self.add_text(world, text, &mut pairs)?;
-        }
-        Ok(pairs)
+        let mut stated = Stated::default();
+        self.add_assumed(world, &mut stated)?;
+        Ok(stated.equal)
     }
 
-    fn add_text(
-        &self,
-        world: &mut World,
-        text: &Spanned<String>,
-        pairs: &mut Vec<(Expr, Expr)>,
-    ) -> Result<(), Obstacle> {
+    fn add_assumed(&self, world: &mut World, stated: &mut Stated) -> Result<(), Obstacle> {
+        self.scope().assume.iter().try_for_each(|text| self.add_text(world, text, stated))
+    }
+
+    fn add_text(&self, world: &mut World, text: &Spanned<String>, stated: &mut Stated) -> Result<(), Obstacle> {
         let tree = Formula::new(&text.value).tree.map_err(|e| broken(text, &e))?;
         let statement = semantics::statement(&tree, None).map_err(|e| unclear(text, &e))?;
         for clause in &statement.clauses {
-            self.add_clause(world, self.scope(), clause, pairs).map_err(|e| unclear(text, &e))?;
+            self.add_clause(world, self.scope(), clause, stated).map_err(|e| unclear(text, &e))?;
         }
         Ok(())
     }
@@ -181,7 +193,7 @@ impl<'b> Source<'b> {
         &self,
         world: &mut World,
         reference: &Spanned<String>,
-        pairs: &mut Vec<(Expr, Expr)>,
+        stated: &mut Stated,
     ) -> Result<(), Obstacle> {
         let obstacle =
             |message: String| Obstacle::Premise(format!("({})", reference.value), message, reference.span.clone());
@@ -196,20 +208,15 @@ impl<'b> Source<'b> {
             if let (true, Some(head)) = (clause.continued, &head) {
                 clause.lhs = head.clone();
             }
-            self.add_clause(world, scope, &clause, pairs).map_err(|e| obstacle(with_help(&e)))?;
+            self.add_clause(world, scope, &clause, stated).map_err(|e| obstacle(with_help(&e)))?;
         }
         Ok(())
     }
 
-    /// Adds what a clause states, where it is an equation.
-    fn add_clause(
-        &self,
-        world: &mut World,
-        scope: &Scope,
-        clause: &Clause,
-        pairs: &mut Vec<(Expr, Expr)>,
-    ) -> Result<(), Error> {
-        if !matches!(clause.rel, Rel::Eq | Rel::Equiv | Rel::Implies) {
+    /// Adds what a clause states, where it is an equation or says what is greater.
+    fn add_clause(&self, world: &mut World, scope: &Scope, clause: &Clause, stated: &mut Stated) -> Result<(), Error> {
+        let ordered = matches!(clause.rel, Rel::Lt | Rel::Le | Rel::Gt | Rel::Ge);
+        if !ordered && !matches!(clause.rel, Rel::Eq | Rel::Equiv | Rel::Implies) {
             return Ok(());
         }
         let link = semantics::understand(world, scope, clause, true)?;
@@ -219,11 +226,14 @@ impl<'b> Source<'b> {
             for instance in &link.instances {
                 for e in instance.lhs.components() {
                     let rate = world.graph.time_derivative(e, t);
-                    pairs.push((rate, zero));
+                    stated.equal.push((rate, zero));
                 }
             }
+        } else if ordered {
+            let pairs = link.pairs().into_iter();
+            stated.ordered.extend(pairs.map(|(_, a, b)| (clause.rel, world.graph.sub(a, b))));
         } else {
-            pairs.extend(link.pairs().into_iter().map(|(_, a, b)| (a, b)));
+            stated.equal.extend(link.pairs().into_iter().map(|(_, a, b)| (a, b)));
         }
         Ok(())
     }
