@@ -267,3 +267,13 @@ fn premises_that_say_what_is_greater_restrict_the_states() {
     assert_eq!(verdict(r"(a - b)(b - c) > 0", "where = 'a > b < c'"), Verdict::Fails);
     assert_eq!(verdict(r"a > b", "where = ['a > 2 c', 'c > 2 a']"), Verdict::Undecided);
 }
+
+#[test]
+fn a_law_is_taken_as_given_if_a_state_satisfies_it() {
+    assert_eq!(verdict(r"a \ddot{x} = - b x", r#"kind = "law""#), Verdict::Definition);
+    assert_eq!(verdict(r"a \ddot{x} = - b x", ""), Verdict::Fails);
+    assert_eq!(verdict(r"\ddot{x}^2 = - b^2 x^2", r#"kind = "law""#), Verdict::Fails);
+    assert_eq!(verdict(r"\ddot{x} = \ddot{x} + a^2", r#"kind = "law""#), Verdict::Fails);
+    assert_eq!(verdict(r"\frac{d}{dt} x^2 = 2 x \dot{x}", r#"kind = "law""#), Verdict::Holds);
+    assert_eq!(verdict(r"\mathbf{u} = a", r#"kind = "law""#), Verdict::Fails);
+}

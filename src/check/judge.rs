@@ -11,6 +11,7 @@ use super::book::{Book, Entry, Formula, Unclear, Version};
 use super::claim::{Claim, Obstacle, Source, obstacle_text, unclear_text};
 use super::decide;
 use super::general;
+use super::law;
 use super::order;
 use super::trouble;
 use super::verdict::{Correction, DimensionStatus, Judgement, LinkJudgement, Strength, Verdict};
@@ -178,7 +179,9 @@ pub(super) fn judge_statement(source: &Source, statement: &Statement, options: &
             });
             known.push(clause.clone());
         } else {
-            links.push(judge_link(source, clause, &entry.scope, &known, options));
+            let link = judge_link(source, clause, &entry.scope, &known, options);
+            let taken = kind(book, index) == "law" && link.verdict != Verdict::Holds && clause.rel == Rel::Eq;
+            links.push(if taken { taken_as_law(link, source, clause, options) } else { link });
         }
     }
     Outcome::of(links)
@@ -196,6 +199,19 @@ fn nothing_to_evaluate(entry: &Entry, version: Version) -> Outcome {
             let problem = trouble::equation(entry, version, reason);
             Outcome::without_links(Verdict::Undecided, reason.into(), Some(problem))
         }
+    }
+}
+
+/// A law that does not follow from its premises is taken as given, if any state satisfies it together with them.
+fn taken_as_law(link: LinkJudgement, source: &Source, clause: &Clause, options: &Options) -> LinkJudgement {
+    let scope = &source.book.entries[source.index].scope;
+    match law::satisfying_states(source, clause, scope, options) {
+        Ok(0) => LinkJudgement { reason: Some("a law that no state satisfies".into()), ..link },
+        Ok(states) => {
+            let reason = Some("a law: taken as given, and there are states that satisfy it".into());
+            LinkJudgement { states, reason, ..definition(clause) }
+        }
+        Err(_) => link,
     }
 }
 
@@ -419,7 +435,8 @@ impl Judgement {
         self.counterexample = self.links.iter().find_map(|l| l.counterexample.clone());
         let decisive = self.links.iter().filter(|l| l.verdict == self.verdict);
         self.strength = decisive.filter_map(|l| l.strength).max_by_key(|s| s.weakness());
-        if self.links.iter().all(|l| l.verdict == Verdict::Definition) && !self.links.is_empty() {
+        let definition = self.links.iter().all(|l| l.verdict == Verdict::Definition) && !self.links.is_empty();
+        if definition && self.kind != "law" {
             self.kind = "definition".into();
         }
         if self.reason.is_none() {

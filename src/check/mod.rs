@@ -10,6 +10,7 @@ pub mod exact;
 mod general;
 pub mod inspect;
 mod judge;
+mod law;
 mod newton;
 mod order;
 mod premises;
