@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use crate::document::{Span, Spanned};
-use crate::expr::{Expr, Node, SymId};
+use crate::expr::{Expr, Graph, Node, SymId};
 use crate::latex::{
     ParseError,
     ast::{self, Rel},
@@ -12,6 +12,9 @@ use crate::semantics::{self, Clause, Elaborator, Error, Scope, Side, TypedLink, 
 
 use super::book::{Book, Formula, Unclear, Version};
 use super::premises::Premises;
+
+/// How deep values at the start of the motion may be made of others.
+const MOST_STARTS: usize = 16;
 
 /// A pair of scalars that a link relates.
 #[derive(Clone, Debug)]
@@ -24,6 +27,14 @@ pub struct Pair {
     pub rhs: Expr,
     /// What must vanish (or, for an inequality, have a sign): left minus right.
     pub residual: Expr,
+    /// Whether only the values at the start of the motion are meant.
+    pub start: bool,
+}
+
+impl Pair {
+    fn new(graph: &mut Graph, name: Option<String>, lhs: Expr, rhs: Expr) -> Self {
+        Pair { name, lhs, rhs, residual: graph.sub(lhs, rhs), start: false }
+    }
 }
 
 /// The pairs of one branch of a link.
@@ -104,6 +115,14 @@ impl Source<'_> {
         for pair in branches.iter_mut().flatten() {
             for e in [&mut pair.lhs, &mut pair.rhs, &mut pair.residual] {
                 *e = premises.resolve(&mut world.graph, *e);
+                // A value at the start may be one of something with values at the start, but not for ever.
+                for _ in 0..MOST_STARTS {
+                    if !pair.start || !world.remembers(*e) {
+                        break;
+                    }
+                    let start = world.start(*e);
+                    *e = premises.resolve(&mut world.graph, start);
+                }
             }
             targets.extend([pair.residual, pair.lhs, pair.rhs]);
         }
@@ -196,22 +215,13 @@ impl Source<'_> {
         clause: &Clause,
         pairs: &mut Vec<(Expr, Expr)>,
     ) -> Result<(), Error> {
-        if !matches!(clause.rel, Rel::Eq | Rel::Equiv | Rel::Implies) {
+        if !matches!(clause.rel, Rel::Eq | Rel::Equiv | Rel::Implies) && !semantics::is_geometric(clause.rel) {
             return Ok(());
         }
         let link = semantics::understand(world, scope, clause, true)?;
-        if clause.rhs == Side::Constant {
-            let zero = world.graph.int(0);
-            let t = world.graph.find("t");
-            for instance in &link.instances {
-                for e in instance.lhs.components() {
-                    let rate = world.graph.time_derivative(e, t);
-                    pairs.push((rate, zero));
-                }
-            }
-        } else {
-            pairs.extend(link.pairs().into_iter().map(|(_, a, b)| (a, b)));
-        }
+        let constant = clause.rhs == Side::Constant;
+        let stated = self::pairs(world, &link, constant).into_iter().filter(|pair| !pair.start);
+        pairs.extend(stated.map(|pair| (pair.lhs, pair.rhs)));
         Ok(())
     }
 
@@ -366,20 +376,36 @@ pub fn obstacle_text(obstacle: &Obstacle) -> String {
 }
 
 pub(super) fn pairs(world: &mut World, link: &TypedLink, constant: bool) -> Branch {
-    let graph = &mut world.graph;
     if constant {
-        let t = graph.find("t");
-        let zero = graph.int(0);
-        let sides = link.instances.iter().flat_map(|i| i.lhs.components());
+        let zero = world.graph.int(0);
+        let sides: Vec<Expr> = link.instances.iter().flat_map(|i| i.lhs.components()).collect();
         return sides
+            .into_iter()
             .map(|e| {
-                let residual = graph.time_derivative(e, t);
-                Pair { name: None, lhs: residual, rhs: zero, residual }
+                let rate = world.rate(e);
+                Pair::new(&mut world.graph, None, rate, zero)
             })
             .collect();
     }
-    let sides = link.pairs().into_iter();
-    sides.map(|(name, lhs, rhs)| Pair { name, lhs, rhs, residual: graph.sub(lhs, rhs) }).collect()
+    let mut pairs = Branch::new();
+    for (name, lhs, rhs) in link.pairs() {
+        if !is_relation_in_time(world, link, lhs, rhs) {
+            pairs.push(Pair::new(&mut world.graph, name, lhs, rhs));
+            continue;
+        }
+        // What holds for all times is what holds at the start and has the same rate ever after.
+        let named = |what: &str| Some(name.iter().map(String::as_str).chain([what]).collect::<Vec<_>>().join(", "));
+        let (left, right) = (world.rate(lhs), world.rate(rhs));
+        pairs.push(Pair::new(&mut world.graph, named("rate"), left, right));
+        let start = Pair { start: true, ..Pair::new(&mut world.graph, named("at the start"), lhs, rhs) };
+        pairs.push(start);
+    }
+    pairs
+}
+
+/// Whether a link equates integrals along the motion, or differences from its start.
+fn is_relation_in_time(world: &World, link: &TypedLink, lhs: Expr, rhs: Expr) -> bool {
+    matches!(link.rel, Rel::Eq | Rel::Equiv | Rel::Implies) && (world.remembers(lhs) || world.remembers(rhs))
 }
 
 /// A tree in which every occurrence of a variable is replaced by something in brackets.

@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use crate::document::Problem;
 use crate::latex::ast::{Kind, Node, Rel};
-use crate::semantics::{Clause, ErrorKind, Scope, Side, Statement};
+use crate::semantics::{self, Clause, ErrorKind, Scope, Side, Statement};
 
 use super::book::{Book, Entry, Formula, Unclear, Version};
 use super::claim::{Claim, Obstacle, Source, obstacle_text, unclear_text};
@@ -168,8 +168,9 @@ pub(super) fn judge_statement(source: &Source, statement: &Statement, options: &
     }
     let mut known: Vec<Clause> = Vec::new();
     let mut links = Vec::new();
+    let law = is_law(entry);
     for clause in &statement.clauses {
-        if defines(book, index, clause) {
+        if law || defines(book, index, clause) {
             links.push(match source.claim(clause, &entry.scope, &known) {
                 Ok(_) => definition(clause),
                 Err(obstacle) => obstructed(unjudged(clause), source, clause, &obstacle),
@@ -180,6 +181,11 @@ pub(super) fn judge_statement(source: &Source, statement: &Statement, options: &
         }
     }
     Outcome::of(links)
+}
+
+/// A law or a condition that the notes set up, and that others rest on: it must be understood, but it follows from nothing.
+fn is_law(entry: &Entry) -> bool {
+    entry.annotation().is_some_and(|a| a.because.is_some() && a.kind.as_ref().is_some_and(|k| k.value == "law"))
 }
 
 /// An equation without a relation: a statement, if the annotation says so and why.
@@ -316,6 +322,7 @@ fn link_verdict(source: &Source, clause: &Clause, scope: &Scope, known: &[Clause
             Some(Ok(clause)) => clause,
         },
         Rel::Eq | Rel::Equiv | Rel::Implies | Rel::Lt | Rel::Le | Rel::Gt | Rel::Ge => clause.clone(),
+        rel if semantics::is_geometric(rel) => clause.clone(),
         _ => {
             judgement.reason = Some("relations of this kind are not evaluated yet".into());
             return judgement;
@@ -406,7 +413,7 @@ impl Judgement {
         self.counterexample = self.links.iter().find_map(|l| l.counterexample.clone());
         let decisive = self.links.iter().filter(|l| l.verdict == self.verdict);
         self.strength = decisive.filter_map(|l| l.strength).max_by_key(|s| s.weakness());
-        if self.links.iter().all(|l| l.verdict == Verdict::Definition) && !self.links.is_empty() {
+        if self.links.iter().all(|l| l.verdict == Verdict::Definition) && !self.links.is_empty() && self.kind != "law" {
             self.kind = "definition".into();
         }
         if self.reason.is_none() {

@@ -65,7 +65,7 @@ impl<'w> Elaborator<'w> {
             Kind::Ellipsis => Err(Error::unsupported("an ellipsis stands for terms that are not printed", &node.span)
                 .with_help("give the formula a `reading` in which the terms are written out or summed")),
             Kind::Factorial(..) => Err(Error::unsupported("factorials are not evaluated yet", &node.span)),
-            Kind::At { .. } => Err(Error::unsupported("a value at a condition is not evaluated yet", &node.span)),
+            Kind::At { body, at } => self.evaluated_at(body, at, &node.span),
             Kind::Chain { .. } | Kind::Rows(_) | Kind::Marked(..) => {
                 Err(Error::unsupported("a relation stands where a value is expected", &node.span))
             }
@@ -244,6 +244,16 @@ impl<'w> Elaborator<'w> {
     ) -> Result<Typed> {
         // Dots belong to the whole name: \dot{r}_G is the derivative of r_G.
         if let Kind::Dots(n, inner) = &base.kind {
+            let whole = Kind::Scripts {
+                base: inner.clone(),
+                primes,
+                sub: sub.cloned().map(Box::new),
+                sup: sup.cloned().map(Box::new),
+            };
+            let whole = Node::new(whole, node.span.clone());
+            if sup.is_some() && self.is_declared(&whole) {
+                return self.atom(&Node::new(Kind::Dots(*n, Box::new(whole)), node.span.clone()));
+            }
             let kind = match (primes, sub) {
                 (0, None) => inner.kind.clone(),
                 _ => Kind::Scripts { base: inner.clone(), primes, sub: sub.cloned().map(Box::new), sup: None },
@@ -266,6 +276,12 @@ impl<'w> Elaborator<'w> {
         {
             let whole = self.value(base)?;
             return self.component(&whole, &basis, axis, &node.span);
+        }
+        if let (0, Some(sub), Kind::Group { .. }) = (primes, sub, &base.kind)
+            && super::motion::is_start(sub)
+        {
+            let inner = self.value(base)?;
+            return Ok(self.started(&inner));
         }
         Err(self.not_declared(node))
     }

@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use crate::document::{BasisDeclaration, Declarations, Problem, Spanned, SymbolDeclaration};
+use crate::document::{Arguments, BasisDeclaration, Declarations, Problem, Spanned, SymbolDeclaration};
 use crate::latex;
 use crate::latex::ast::{Kind, Node};
 
@@ -72,6 +72,8 @@ pub struct Entry {
     pub declared: usize,
     /// Whether it takes integers only.
     pub integer: bool,
+    /// The spellings of the arguments that may be printed behind it, in brackets.
+    pub arguments: Vec<String>,
 }
 
 impl Entry {
@@ -208,6 +210,11 @@ impl Scope {
     pub fn declare_symbol(&mut self, d: &SymbolDeclaration, problems: &mut Vec<Problem>) {
         let each: Vec<String> =
             d.each.iter().filter_map(|i| parse_name(i, problems)).map(|node| spelling(&node)).collect();
+        let arguments = match &d.function {
+            Some(Arguments::Names(names)) => names.iter().filter_map(|n| parse_name(n, problems)).collect(),
+            _ => Vec::new(),
+        };
+        let arguments: Vec<String> = arguments.iter().map(spelling).collect();
         let dimension = d.unit.as_ref().and_then(|unit| parse_unit(unit, problems));
         for (position, name) in d.names.iter().enumerate() {
             let Some(node) = parse_name(name, problems) else { continue };
@@ -222,6 +229,7 @@ impl Scope {
                 dimension,
                 declared: name.span.start,
                 integer: d.integer,
+                arguments: arguments.clone(),
             };
             self.insert(pattern, entry);
         }
@@ -253,6 +261,7 @@ impl Entry {
             dimension: None,
             declared: 0,
             integer: false,
+            arguments: Vec::new(),
         }
     }
 }
