@@ -100,6 +100,7 @@ impl Source<'_> {
         for clause in known {
             self.add_clause(&mut world, self.scope(), clause, &mut given).map_err(Obstacle::Link)?;
         }
+        given.extend(world.integral_rates());
         let small = self.small(&mut world)?;
         let condition = self.condition(&mut world)?;
         let solve = self.solve(&mut world)?;
@@ -112,18 +113,8 @@ impl Source<'_> {
         // each other there.
         let printed: Vec<Expr> = branches.iter().flatten().map(|pair| pair.residual).collect();
         let mentioned = world.graph.symbols(&printed);
-        for pair in branches.iter_mut().flatten() {
-            for e in [&mut pair.lhs, &mut pair.rhs, &mut pair.residual] {
-                *e = premises.resolve(&mut world.graph, *e);
-                // A value at the start may be one of something with values at the start, but not for ever.
-                for _ in 0..MOST_STARTS {
-                    if !pair.start || !world.remembers(*e) {
-                        break;
-                    }
-                    let start = world.start(*e);
-                    *e = premises.resolve(&mut world.graph, start);
-                }
-            }
+        resolve(&mut world, &premises, &mut branches, typed.first().map(|link| link.rel));
+        for pair in branches.iter().flatten() {
             targets.extend([pair.residual, pair.lhs, pair.rhs]);
         }
         targets.extend(small.iter().map(|(s, _)| world.graph.sym(*s)).collect::<Vec<_>>());
@@ -220,8 +211,11 @@ impl Source<'_> {
         }
         let link = semantics::understand(world, scope, clause, true)?;
         let constant = clause.rhs == Side::Constant;
-        let stated = self::pairs(world, &link, constant).into_iter().filter(|pair| !pair.start);
-        pairs.extend(stated.map(|pair| (pair.lhs, pair.rhs)));
+        for pair in self::pairs(world, &link, constant) {
+            pairs.push((pair.lhs, pair.rhs));
+            let rates = in_time(world, pair).into_iter().filter(|pair| !pair.start);
+            pairs.extend(rates.map(|pair| (pair.lhs, pair.rhs)));
+        }
         Ok(())
     }
 
@@ -389,23 +383,47 @@ pub(super) fn pairs(world: &mut World, link: &TypedLink, constant: bool) -> Bran
     }
     let mut pairs = Branch::new();
     for (name, lhs, rhs) in link.pairs() {
-        if !is_relation_in_time(world, link, lhs, rhs) {
-            pairs.push(Pair::new(&mut world.graph, name, lhs, rhs));
-            continue;
-        }
-        // What holds for all times is what holds at the start and has the same rate ever after.
-        let named = |what: &str| Some(name.iter().map(String::as_str).chain([what]).collect::<Vec<_>>().join(", "));
-        let (left, right) = (world.rate(lhs), world.rate(rhs));
-        pairs.push(Pair::new(&mut world.graph, named("rate"), left, right));
-        let start = Pair { start: true, ..Pair::new(&mut world.graph, named("at the start"), lhs, rhs) };
-        pairs.push(start);
+        pairs.push(Pair::new(&mut world.graph, name, lhs, rhs));
     }
     pairs
 }
 
-/// Whether a link equates integrals along the motion, or differences from its start.
-fn is_relation_in_time(world: &World, link: &TypedLink, lhs: Expr, rhs: Expr) -> bool {
-    matches!(link.rel, Rel::Eq | Rel::Equiv | Rel::Implies) && (world.remembers(lhs) || world.remembers(rhs))
+/// Puts the premises' definitions into the pairs. An equation in time becomes two.
+fn resolve(world: &mut World, premises: &Premises, branches: &mut [Branch], rel: Option<Rel>) {
+    let each = |pair: &mut Pair, f: &mut dyn FnMut(Expr) -> Expr| {
+        for e in [&mut pair.lhs, &mut pair.rhs, &mut pair.residual] {
+            *e = f(*e);
+        }
+    };
+    for branch in branches {
+        branch.iter_mut().for_each(|pair| each(pair, &mut |e| premises.resolve(&mut world.graph, e)));
+        if !matches!(rel, Some(Rel::Eq | Rel::Equiv | Rel::Implies)) {
+            continue;
+        }
+        *branch = std::mem::take(branch).into_iter().flat_map(|pair| in_time(world, pair)).collect();
+        for pair in branch {
+            each(pair, &mut |e| premises.resolve(&mut world.graph, e));
+            // A value at the start may be one of something with values at the start, but not for ever.
+            for _ in 0..MOST_STARTS {
+                if pair.start && world.remembers(pair.residual) {
+                    each(pair, &mut |e| world.start(e));
+                    each(pair, &mut |e| premises.resolve(&mut world.graph, e));
+                }
+            }
+        }
+    }
+}
+
+/// An equation between integrals along the motion, or differences from its start, as two: what holds for all times is what
+/// holds at the start and has the same rate ever after.
+fn in_time(world: &mut World, pair: Pair) -> Vec<Pair> {
+    if !world.remembers(pair.lhs) && !world.remembers(pair.rhs) {
+        return vec![pair];
+    }
+    let named = |what: &str| Some(pair.name.iter().map(String::as_str).chain([what]).collect::<Vec<_>>().join(", "));
+    let (left, right) = (world.rate(pair.lhs), world.rate(pair.rhs));
+    let rate = Pair::new(&mut world.graph, named("rate"), left, right);
+    vec![rate, Pair { name: named("at the start"), start: true, ..pair }]
 }
 
 /// A tree in which every occurrence of a variable is replaced by something in brackets.

@@ -316,6 +316,14 @@ impl Elaborator<'_> {
         {
             found.push(s.clone());
         }
+        if let Some((entry, _)) = self.entry(node) {
+            let open = |letter: &&String| self.index_value(letter).is_none() && !bound.contains(letter);
+            for letter in entry.hidden.iter().filter(open) {
+                if !found.contains(letter) {
+                    found.push(letter.clone());
+                }
+            }
+        }
         let depth = bound.len();
         for child in children(node) {
             let mut limits = Vec::new();

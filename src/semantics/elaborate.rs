@@ -298,7 +298,7 @@ impl<'w> Elaborator<'w> {
             return None;
         }
         if let Some(entry) = self.scope.get(&exact) {
-            return Some((entry, Vec::new()));
+            return Some((entry, entry.hidden.iter().filter_map(|letter| self.index_value(letter)).collect()));
         }
         let values = std::cell::RefCell::new(Vec::new());
         let is_index = |letter: &str| self.index_value(letter).inspect(|v| values.borrow_mut().push(*v)).is_some();
@@ -321,6 +321,11 @@ impl<'w> Elaborator<'w> {
         let Some((entry, indices)) = self.entry(node) else { return Ok(None) };
         let entry = entry.clone();
         let name = instance(&entry.pattern, &indices);
+        let name = match entry.hidden.iter().find(|letter| self.index_value(letter).is_none()) {
+            Some(letter) => return Err(Error::undeclared(format!("the index {letter} of {name} has no value here"), &node.span)),
+            None if entry.hidden.is_empty() => name,
+            None => format!("{name}_{{{}}}", indices.iter().map(i64::to_string).collect::<Vec<_>>().join(",")),
+        };
         let value = match &entry.kind {
             EntryKind::Scalar => Value::Scalar(self.scalar_symbol(&entry, &name, name.clone())),
             EntryKind::Vector => Value::Vector(

@@ -75,6 +75,18 @@ impl World {
         self.graph.substitute(rate, &map)
     }
 
+    /// The derivative of each integral that has been met, and what it integrates.
+    pub fn integral_rates(&mut self) -> Vec<(Expr, Expr)> {
+        let integrals = self.history.integrals.clone();
+        integrals
+            .into_iter()
+            .map(|(symbol, rate)| {
+                let derivative = self.graph.derivative_symbol(symbol);
+                (self.graph.sym(derivative), rate)
+            })
+            .collect()
+    }
+
     /// An expression at the start of the motion: integrals are zero, and a value at the start is the value itself.
     pub fn start(&mut self, e: Expr) -> Expr {
         let zero = self.graph.int(0);

@@ -72,6 +72,8 @@ pub struct Entry {
     pub declared: usize,
     /// Whether it takes integers only.
     pub integer: bool,
+    /// The indices it has one value for each of that are not printed: the j of \\sum m r^2.
+    pub hidden: Vec<String>,
     /// The spellings of the arguments that may be printed behind it, in brackets.
     pub arguments: Vec<String>,
 }
@@ -219,6 +221,8 @@ impl Scope {
         for (position, name) in d.names.iter().enumerate() {
             let Some(node) = parse_name(name, problems) else { continue };
             let pattern = pattern(&node, &|letter| each.iter().any(|e| e == letter));
+            let printed = |letter: &String| self::pattern(&node, &|l| l == letter).contains('#');
+            let hidden = each.iter().filter(|letter| !printed(letter)).cloned().collect();
             let Some(kind) = entry_kind(d, position, problems) else { continue };
             let entry = Entry {
                 pattern: pattern.clone(),
@@ -229,6 +233,7 @@ impl Scope {
                 dimension,
                 declared: name.span.start,
                 integer: d.integer,
+                hidden,
                 arguments: arguments.clone(),
             };
             self.insert(pattern, entry);
@@ -261,6 +266,7 @@ impl Entry {
             dimension: None,
             declared: 0,
             integer: false,
+            hidden: Vec::new(),
             arguments: Vec::new(),
         }
     }

@@ -9,7 +9,7 @@ use super::error::{Error, Result};
 use super::geometric::{as_equation, is_geometric};
 use super::juxtaposition::Item;
 use super::scope::Scope;
-use super::value::Value;
+use super::value::{Matrix, Value};
 use super::world::World;
 
 /// One side of a link.
@@ -338,6 +338,14 @@ pub fn understand(world: &mut World, scope: &Scope, clause: &Clause, upper: bool
 /// its components.
 fn meet(elaborator: &mut Elaborator, lhs: Value, rhs: Value, clause: &Clause) -> Result<(Value, Value)> {
     let zero = elaborator.world.graph.int(0);
+    let (lhs, rhs) = match (&lhs, &rhs) {
+        (Value::Tuple(_), Value::Vector(_) | Value::Matrix(_)) => (column_of(&lhs), rhs),
+        (Value::Vector(_) | Value::Matrix(_), Value::Tuple(_)) => {
+            let column = column_of(&rhs);
+            (lhs, column)
+        }
+        _ => (lhs, rhs),
+    };
     let span = match &clause.rhs {
         Side::Node(n) => n.span.clone(),
         Side::Constant => clause.lhs.span.clone(),
@@ -374,6 +382,16 @@ fn meet(elaborator: &mut Elaborator, lhs: Value, rhs: Value, clause: &Clause) ->
             ))
         }
     })
+}
+
+/// The column that a tuple of numbers beside a vector stands for; anything else as it is.
+fn column_of(tuple: &Value) -> Value {
+    match tuple {
+        Value::Tuple(items) if items.iter().all(|item| matches!(item, Value::Scalar(_))) => {
+            Value::Matrix(Matrix { rows: items.len(), cols: 1, data: tuple.components() })
+        }
+        other => other.clone(),
+    }
 }
 
 /// All assignments of values to indices; one empty assignment where there are none.
