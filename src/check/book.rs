@@ -49,8 +49,9 @@ pub struct Entry {
     pub correction: Option<Formula>,
     /// The equation before it, which it continues if it begins with a relation.
     pub previous: Option<usize>,
-    /// The patterns of the declared symbols it mentions.
-    pub mentions: HashSet<String>,
+    /// The declared symbols it mentions: the pattern, and where it is declared, which tells apart the symbols of different
+    /// sections that are spelt alike.
+    pub mentions: HashMap<String, usize>,
 }
 
 impl Entry {
@@ -151,6 +152,7 @@ impl Book {
                 semantics::mentions(&scope, tree, &mut mentions);
             }
         }
+        let mentions = mentions.into_iter().filter_map(|m| scope.get(&m).map(|e| e.declared).map(|d| (m, d))).collect();
         self.labels.entry(equation.label.clone()).or_insert(self.entries.len());
         self.entries.push(Entry {
             equation: equation.clone(),
@@ -270,10 +272,16 @@ impl Book {
         statement.ok_or_else(|| Unclear::Meaning(semantics::Error::unsupported("nothing is printed here", &(0..0))))
     }
 
-    /// Whether a symbol is mentioned by an equation before this one that does not rest on this one.
+    /// Whether a symbol is mentioned by an equation before this one that does not rest on this one, or by one that this
+    /// one rests on.
     pub fn mentioned_before(&self, index: usize, pattern: &str) -> bool {
-        let rests = |e: &Entry| e.given(None).iter().any(|g| self.find(&g.value).is_some_and(|(k, _)| k == index));
-        self.entries[..index].iter().any(|e| e.mentions.contains(pattern) && !rests(e))
+        let declared = self.entries[index].scope.get(pattern).map(|e| e.declared);
+        let given = |e: &Entry| -> Vec<usize> {
+            e.given(None).iter().filter_map(|g| self.find(&g.value)).map(|(k, _)| k).collect()
+        };
+        let rests = |e: &Entry| given(e).contains(&index);
+        self.entries[..index].iter().any(|e| e.mentions.get(pattern).copied() == declared && !rests(e))
+            || given(&self.entries[index]).iter().any(|k| self.entries[*k].mentions.contains_key(pattern))
     }
 }
 

@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use crate::document::Problem;
 use crate::latex::ast::{Kind, Node, Rel};
-use crate::semantics::{Clause, ErrorKind, Scope, Side, Statement};
+use crate::semantics::{self, Clause, ErrorKind, Scope, Side, Statement};
 
 use super::book::{Book, Entry, Formula, Unclear, Version};
 use super::claim::{Claim, Obstacle, Source, obstacle_text, unclear_text};
@@ -180,8 +180,13 @@ pub(super) fn judge_statement(source: &Source, statement: &Statement, options: &
             known.push(clause.clone());
         } else {
             let link = judge_link(source, clause, &entry.scope, &known, options);
-            let taken = kind(book, index) == "law" && link.verdict != Verdict::Holds && clause.rel == Rel::Eq;
-            links.push(if taken { taken_as_law(link, source, clause, options) } else { link });
+            let equality = matches!(clause.rel, Rel::Eq | Rel::Equiv) || semantics::is_geometric(clause.rel);
+            if equality && kind(book, index) == "law" && link.verdict != Verdict::Holds {
+                links.push(taken_as_law(link, source, clause, &known, options));
+                known.push(clause.clone());
+            } else {
+                links.push(link);
+            }
         }
     }
     Outcome::of(links)
@@ -203,9 +208,14 @@ fn nothing_to_evaluate(entry: &Entry, version: Version) -> Outcome {
 }
 
 /// A law that does not follow from its premises is taken as given, if any state satisfies it together with them.
-fn taken_as_law(link: LinkJudgement, source: &Source, clause: &Clause, options: &Options) -> LinkJudgement {
-    let scope = &source.book.entries[source.index].scope;
-    match law::satisfying_states(source, clause, scope, options) {
+fn taken_as_law(
+    link: LinkJudgement,
+    source: &Source,
+    clause: &Clause,
+    known: &[Clause],
+    options: &Options,
+) -> LinkJudgement {
+    match law::satisfying_states(source, clause, known, options) {
         Ok(0) => LinkJudgement { reason: Some("a law that no state satisfies".into()), ..link },
         Ok(states) => {
             let reason = Some("a law: taken as given, and there are states that satisfy it".into());
@@ -345,6 +355,7 @@ fn link_verdict(source: &Source, clause: &Clause, scope: &Scope, known: &[Clause
             Some(Ok(clause)) => clause,
         },
         Rel::Eq | Rel::Equiv | Rel::Implies | Rel::Lt | Rel::Le | Rel::Gt | Rel::Ge => clause.clone(),
+        rel if semantics::is_geometric(rel) => clause.clone(),
         _ => {
             judgement.reason = Some("relations of this kind are not evaluated yet".into());
             return judgement;
