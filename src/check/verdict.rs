@@ -74,6 +74,49 @@ pub struct Counterexample {
     pub rhs: String,
     /// Which component or instance differs (`\xi component`, `i = 2`), where there are several.
     pub component: Option<String>,
+    /// The proof that the sides differ there (feature `rug`).
+    pub certificate: Option<Certificate>,
+    /// Why there is none, where one was tried for.
+    pub uncertified: Option<String>,
+}
+
+/// A proof by intervals that a link fails at a state: what is needed to repeat it.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Certificate {
+    /// The precision of the intervals' endpoints, in bits.
+    pub bits: u32,
+    /// The symbols that may be chosen, with exact values: integers and fractions such as `1/2`.
+    pub state: Vec<ExactValue>,
+    /// The symbols that the premises determine there. Each bracket contains the symbol's only value near the one shown in
+    /// the counterexample.
+    pub solved: Vec<Enclosure>,
+    /// What left minus right is proved to lie between, zero excluded (for an inequality: values of the wrong sign); one
+    /// for each of the two signs of ±.
+    pub differences: Vec<Enclosure>,
+}
+
+/// A symbol's exact value.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ExactValue {
+    /// The symbol's LaTeX.
+    pub symbol: String,
+    /// An integer or a fraction in lowest terms.
+    pub value: String,
+    /// Whether the sides do not depend on it.
+    pub idle: bool,
+}
+
+/// Decimals between which a number is proved to lie. They are equal where the number is known exactly.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Enclosure {
+    /// The LaTeX of the symbol; the name of the component or instance, or nothing, for a difference.
+    pub name: Option<String>,
+    /// Not above the number.
+    pub low: String,
+    /// Not below it.
+    pub high: String,
+    /// Whether it is a symbol that does not occur in the sides.
+    pub idle: bool,
 }
 
 /// The measured order of an approximation.

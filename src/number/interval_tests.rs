@@ -168,20 +168,12 @@ fn expressions(count: usize, seed: u8) -> usize {
     bounded
 }
 
-#[test]
-fn sound() {
-    let (single, chained) = (single_operations(150_000, 11), expressions(50_000, 12));
-    // A test of soundness says nothing of what is invalid.
-    assert!(single > 90_000 && chained > 30_000, "{single} and {chained} bounded");
-}
-
 /// A million operations.
 #[test]
-#[ignore = "takes a minute"]
-fn sound_in_a_million_operations() {
+fn sound() {
     let (single, chained) = (single_operations(700_000, 21), expressions(300_000, 22));
-    assert!(single > 400_000 && chained > 180_000, "{single} and {chained} bounded");
-    eprintln!("{single} of 700000 single operations and {chained} of 300000 in expressions were bounded");
+    // Of what is invalid nothing is tested: most must not be.
+    assert!(single > 500_000 && chained > 200_000, "{single} and {chained} bounded");
 }
 
 /// What is not defined or not continuous at some point of an operand is not bounded.
