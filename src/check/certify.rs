@@ -7,9 +7,13 @@
 //! The promise: a certificate is given only where the intervals alone prove that (a) the free symbols are exact and in
 //! their declared ranges, (b) the premises have a solution in the box given, with the signs their ranges declare,
 //! (c) both sides are defined there, and (d) differ: for an inequality, that their difference has the sign it must not
-//! have. What was seen in doubles before is a place to look at, and decides nothing. Premises that the state was not
-//! solved for, because they follow from the others, must be proved as well: their residual must be the point zero.
+//! have. What was seen in doubles before is a place to look at, and decides nothing.
+//!
+//! Premises that the state was not solved for, because they follow from the others, must be proved as well: their
+//! residual must be the point zero. Intervals cannot prove that where they have a width; then a state near by is looked
+//! for at which all is a fraction and nothing is rounded.
 
+mod fractions;
 mod krawczyk;
 
 use std::cmp::Ordering;
@@ -51,7 +55,9 @@ pub enum Uncertified {
     #[error("it cannot be proved that the premises have a solution there")]
     NoSolution,
     /// Premises beyond those that are solved.
-    #[error("{0} of the premises hold there as far as intervals can tell, but are not proved to follow from the others")]
+    #[error(
+        "{0} of the premises hold there as far as intervals can tell, but are not proved to follow from the others"
+    )]
     Dependent(usize),
     /// Premises that do not hold.
     #[error("the premises contradict each other there")]
@@ -93,14 +99,19 @@ pub fn certify(judgement: &mut LinkJudgement, sampler: &Sampler, state: &State, 
     }
 }
 
+fn proved(sampler: &Sampler, state: &State, claimed: &Claimed, idle: &[SymId]) -> Result<Certificate, Uncertified> {
+    in_ranges(sampler, state)?;
+    by_intervals(sampler, state, claimed, idle)
+        .or_else(|why| fractions::certificate(sampler, state, claimed, idle).ok_or(why))
+}
+
 /// The certificate at the lowest precision that gives one.
-fn proved(
+fn by_intervals(
     sampler: &Sampler,
     state: &State,
     claimed: &Claimed,
     idle: &[SymId],
 ) -> Result<Certificate, Uncertified> {
-    in_ranges(sampler, state)?;
     let mut why = Uncertified::Open(0);
     for bits in PRECISIONS {
         match attempt(sampler, state, claimed, idle, bits) {
@@ -134,7 +145,7 @@ fn attempt(
         bracket(Some(world.tex(u.symbol)), &at[u.symbol.index()], idle)
     });
     Ok(Certificate {
-        bits,
+        bits: Some(bits),
         state: sampler.system.free.iter().zip(&state.free).map(exact).collect(),
         solved: solved.collect(),
         differences,

@@ -126,7 +126,7 @@ impl Interval {
 
     /// The number in the middle, to the nearest, which is in the interval.
     pub fn midpoint(&self) -> Float {
-        Float::with_val(self.lo.prec() + 1, &self.lo + &self.hi) >> 1
+        Float::with_val(self.bits(), &self.lo + &self.hi) >> 1
     }
 
     /// At least the distance of the endpoints.

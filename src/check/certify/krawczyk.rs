@@ -50,13 +50,11 @@ impl Equations<'_> {
         let points: Vec<Interval> = centre.iter().map(|c| Interval::new(c, c)).collect();
         self.place(at, &points);
         let inverse = self.inverse(at, bits, &mut work)?;
-        let residuals = bounded(evaluate(self.values, at, bits, &mut work))?;
-        let step = times(&inverse, &residuals, bits);
-        let newton: Vec<Interval> = points.iter().zip(&step).map(|(c, d)| c.minus(d)).collect();
-        let operator = Operator { equations: self, inverse, points, newton, bits };
+        let operator = Operator { equations: self, inverse, bits };
+        let step = operator.step(at, &points, &mut work)?;
         let mut why = Unproved::NotContracted;
         for share in SHARES {
-            let around = operator.around(&step, bits * share / 8);
+            let around = operator.around(&points, &step, bits * share / 8);
             match operator.image(at, &around, &mut work) {
                 Ok(image) if image.iter().zip(&around).all(|(k, x)| k.is_inside(x)) => {
                     let narrowed = operator.narrowed(at, image, &mut work);
@@ -77,12 +75,7 @@ impl Equations<'_> {
     }
 
     /// The inverse of the Jacobian at the point, to the precision of doubles, row by row.
-    fn inverse(
-        &self,
-        at: &[Interval],
-        bits: u32,
-        work: &mut Workspace<Interval>,
-    ) -> Result<Vec<Interval>, Unproved> {
+    fn inverse(&self, at: &[Interval], bits: u32, work: &mut Workspace<Interval>) -> Result<Vec<Interval>, Unproved> {
         let n = self.unknowns.len();
         let entries = bounded(evaluate(self.jacobian, at, bits, work))?;
         let jacobian = DMatrix::from_row_iterator(n, n, entries.iter().map(Interval::to_f64));
@@ -91,21 +84,30 @@ impl Equations<'_> {
     }
 }
 
-/// Krawczyk's operator at a point.
+/// Krawczyk's operator with a given Y. The point c is always the middle of the box: it must be in the box, or the
+/// derivatives on the box say nothing of the way from c to the solution.
 struct Operator<'e> {
     equations: &'e Equations<'e>,
     /// Y, row by row.
     inverse: Vec<Interval>,
-    /// c
-    points: Vec<Interval>,
-    /// c - Y F(c)
-    newton: Vec<Interval>,
     bits: u32,
 }
 
 impl Operator<'_> {
-    /// A box around the point: wide enough for four times the step from it, and 2^-shift of its size.
-    fn around(&self, step: &[Interval], shift: u32) -> Vec<Interval> {
+    /// Y F(c)
+    fn step(
+        &self,
+        at: &mut [Interval],
+        points: &[Interval],
+        work: &mut Workspace<Interval>,
+    ) -> Result<Vec<Interval>, Unproved> {
+        self.equations.place(at, points);
+        let residuals = bounded(evaluate(self.equations.values, at, self.bits, work))?;
+        Ok(times(&self.inverse, &residuals, self.bits))
+    }
+
+    /// A box around a point: wide enough for four times the step from it, and 2^-shift of its size.
+    fn around(&self, points: &[Interval], step: &[Interval], shift: u32) -> Vec<Interval> {
         let one = Interval::from_f64(1.0, &self.bits);
         let both = Interval::new(&Float::with_val(self.bits, -1), &Float::with_val(self.bits, 1));
         let unit = Float::with_val(self.bits, 1) >> shift;
@@ -116,7 +118,7 @@ impl Operator<'_> {
             let radius = size.times(&unit).plus(&d.times(&Interval::from_f64(4.0, &self.bits)).times(&both));
             c.plus(&radius.times(&both))
         };
-        self.points.iter().zip(step).map(widened).collect()
+        points.iter().zip(step).map(widened).collect()
     }
 
     /// K of a box.
@@ -127,11 +129,17 @@ impl Operator<'_> {
         work: &mut Workspace<Interval>,
     ) -> Result<Vec<Interval>, Unproved> {
         let n = around.len();
+        let middle = |x: &Interval| {
+            let c = x.midpoint();
+            Interval::new(&c, &c)
+        };
+        let points: Vec<Interval> = around.iter().map(middle).collect();
+        let step = self.step(at, &points, work)?;
         self.equations.place(at, around);
         bounded(evaluate(self.equations.values, at, self.bits, work))?;
         let jacobian = bounded(evaluate(self.equations.jacobian, at, self.bits, work))?;
-        let offsets: Vec<Interval> = around.iter().zip(&self.points).map(|(x, c)| x.minus(c)).collect();
-        let mut image = self.newton.clone();
+        let offsets: Vec<Interval> = around.iter().zip(&points).map(|(x, c)| x.minus(c)).collect();
+        let mut image: Vec<Interval> = points.iter().zip(&step).map(|(c, d)| c.minus(d)).collect();
         for (i, k) in image.iter_mut().enumerate() {
             for (j, offset) in offsets.iter().enumerate() {
                 let mut defect = Interval::from_f64(if i == j { 1.0 } else { 0.0 }, &self.bits);
@@ -145,11 +153,17 @@ impl Operator<'_> {
     }
 
     /// A box that holds the only solution, narrowed as long as that helps.
-    fn narrowed(&self, at: &mut [Interval], mut around: Vec<Interval>, work: &mut Workspace<Interval>) -> Vec<Interval> {
+    fn narrowed(
+        &self,
+        at: &mut [Interval],
+        mut around: Vec<Interval>,
+        work: &mut Workspace<Interval>,
+    ) -> Vec<Interval> {
         for _ in 0..MOST_NARROWINGS {
             let Ok(image) = self.image(at, &around, work) else { break };
             let next: Vec<Interval> = image.iter().zip(&around).map(|(k, x)| k.meet(x)).collect();
-            let halved = |(new, old): (&Interval, &Interval)| Float::with_val(self.bits, new.width() * 2) <= old.width();
+            let halved =
+                |(new, old): (&Interval, &Interval)| Float::with_val(self.bits, new.width() * 2) <= old.width();
             let better = next.iter().zip(&around).any(|pair| !pair.1.is_point() && halved(pair));
             // What does not meet holds no solution: that would be a defect, and ends in an invalid interval.
             around = next;
