@@ -108,7 +108,7 @@ fn precision(text: &str) -> Result<u32, String> {
 
 impl Sampling {
     fn options(&self) -> Options {
-        Options { seed: self.seed, states: self.states as usize, precision: self.precision }
+        Options { seed: self.seed, states: self.states as usize, precision: self.precision, ..Options::default() }
     }
 }
 

@@ -25,11 +25,13 @@ pub struct Options {
     pub states: usize,
     /// The precision in bits to decide in, where one is asked for (feature `rug`); otherwise double-double.
     pub precision: Option<u32>,
+    /// Whether counterexamples are to be proved (feature `rug`).
+    pub certify: bool,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Options { seed: 1, states: 64, precision: None }
+        Options { seed: 1, states: 64, precision: None, certify: true }
     }
 }
 

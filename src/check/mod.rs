@@ -1,6 +1,8 @@
 //! Judging: sampled states, premises, verdicts.
 
 mod book;
+#[cfg(feature = "rug")]
+mod certify;
 mod choice;
 mod claim;
 mod decide;

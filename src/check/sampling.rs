@@ -47,7 +47,7 @@ pub struct Sampler<'c> {
     /// Its premises compiled.
     pub system: System,
     /// For each pair of each branch: residual, lhs, rhs, sum of magnitudes.
-    tape: Tape,
+    pub(super) tape: Tape,
     /// The pairs' numbers by branch.
     branches: Vec<usize>,
     /// Starts for unknowns that one side gives: the unknown's place and the tape of the other side.
@@ -185,6 +185,8 @@ impl<'c> Sampler<'c> {
             lhs: shown(&value.lhs, 12),
             rhs: shown(&value.rhs, 12),
             component: pair.name.clone(),
+            certificate: None,
+            uncertified: None,
         }
     }
 }
