@@ -133,10 +133,44 @@ impl<'b> Trial<'b> {
             .unwrap_or(Outcome::Holds)
     }
 
+    /// Whether the links of these numbers hold in a formula with as many links as the original, whatever the others do.
+    pub fn holds_at(&mut self, tree: &Node, links: &[usize]) -> bool {
+        let Ok(statement) = self.source.book.statement_of(self.source.index, tree) else { return false };
+        if self.solution || statement.clauses.len() != self.links.len() {
+            return false;
+        }
+        let mut confirm = Vec::new();
+        for k in links.iter().copied() {
+            if statement.clauses[k] == self.statement.clauses[k] {
+                if self.links[k].verdict > Verdict::Asymptotic {
+                    return false;
+                }
+                continue;
+            }
+            match self.quick(k, &statement.clauses[k]) {
+                Quick::Agrees | Quick::Elsewhere => confirm.push(k),
+                Quick::Differs | Quick::Error(_) => return false,
+            }
+        }
+        confirm.into_iter().all(|k| self.link_in_full(&statement, k) == Outcome::Holds)
+    }
+
     /// Whether a formula says the same as the original, whatever the premises are: see [`sameness`].
     pub fn is_equivalent(&self, tree: &Node) -> bool {
         let Ok(statement) = self.source.book.statement_of(self.source.index, tree) else { return false };
-        let (own, other) = (&self.statement.clauses, &statement.clauses);
+        self.same_clauses(&self.statement.clauses, &statement.clauses)
+    }
+
+    /// Whether two formulas in the place of the original say the same as each other.
+    pub fn say_the_same(&self, a: &Node, b: &Node) -> bool {
+        let clauses = |tree| self.source.book.statement_of(self.source.index, tree).map(|s| s.clauses);
+        match (clauses(a), clauses(b)) {
+            (Ok(a), Ok(b)) => self.same_clauses(&a, &b),
+            _ => false,
+        }
+    }
+
+    fn same_clauses(&self, own: &[Clause], other: &[Clause]) -> bool {
         self.all_same(own, other) || self.all_same(&sameness::split(own), &sameness::split(other))
     }
 
