@@ -9,7 +9,7 @@ use std::collections::{BTreeMap, BTreeSet};
 use crate::expr::{Expr, Node as Op, SymId};
 use crate::latex::ast::{Node, Rel};
 use crate::number::{Df64, Number};
-use crate::semantics::{self, Clause, Side};
+use crate::semantics::{self, Clause, Side, World};
 
 use super::book::{Book, Version};
 use super::claim::{Claim, Related, Source};
@@ -74,7 +74,8 @@ impl<'b> Screen<'b> {
     ) -> Option<Self> {
         let source = Source { book, index, version };
         let entry = &book.entries[index];
-        let claim = source.claim_of(clauses, &entry.scope, known, related).ok();
+        let clauses: Vec<Clause> = clauses.iter().filter_map(|c| sensible(&source, c)).collect();
+        let claim = source.claim_of(&clauses, &entry.scope, known, related).ok();
         let mut claim = claim.filter(|c| c.small.is_none() && c.condition.is_none())?;
         let mut random = Random::new(options.seed, &format!("{}/screen", entry.equation.label));
         let sampler = Sampler::new(&mut claim, &mut random, &[]).ok()?;
@@ -151,7 +152,9 @@ impl<'b> Screen<'b> {
                         open.extend(missing);
                         continue;
                     }
-                    std::array::from_fn(|k| operation(&node, &|a: Expr| self.rows[a.index()].map_or(f64::NAN, |r| r[k])))
+                    std::array::from_fn(|k| {
+                        operation(&node, &|a: Expr| self.rows[a.index()].map_or(f64::NAN, |r| r[k]))
+                    })
                 }
             };
             self.rows[top.index()] = Some(row);
@@ -184,6 +187,18 @@ impl<'b> Screen<'b> {
         }
         Some(Symbol::Row(std::array::from_fn(|k| self.states[k].get(s.index()).copied().unwrap_or(f64::NAN))))
     }
+}
+
+/// The clause, or, where it makes no sense as it stands, one of its sides that does: it equals itself.
+fn sensible(source: &Source, clause: &Clause) -> Option<Clause> {
+    let scope = &source.book.entries[source.index].scope;
+    let makes_sense = |c: &Clause| semantics::understand(&mut World::new(), scope, c, true).is_ok();
+    let itself = |n: &Node| Clause { lhs: n.clone(), rhs: Side::Node(n.clone()), ..clause.clone() };
+    let right = match &clause.rhs {
+        Side::Node(n) => Some(itself(n)),
+        Side::Constant => None,
+    };
+    [Some(clause.clone()), Some(itself(&clause.lhs)), right].into_iter().flatten().find(makes_sense)
 }
 
 /// What a symbol is.

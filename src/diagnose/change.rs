@@ -1,6 +1,6 @@
 //! Changes of a formula: what is put where, with the edits in words and what they cost.
 
-use crate::latex::ast::Node;
+use crate::latex::ast::{Kind, Node};
 
 use super::mutants::replaced_at;
 
@@ -26,7 +26,8 @@ impl Change {
 
     /// The formula with the change made.
     pub fn made(&self, tree: &Node) -> Node {
-        self.places.iter().fold(tree.clone(), |tree, (path, node)| replaced_at(&tree, path, node))
+        let made = self.places.iter().fold(tree.clone(), |tree, (path, node)| replaced_at(&tree, path, node));
+        flat(made)
     }
 
     /// Both changes; `None` where an edit of one lies within one of the other.
@@ -54,6 +55,21 @@ impl Change {
     pub fn is_none(&self) -> bool {
         self.places.is_empty()
     }
+}
+
+/// The tree with products within products laid flat, as they are read.
+fn flat(node: Node) -> Node {
+    let mut node = node.map_children(&mut |child| flat(child.clone()));
+    if let Kind::Juxt(factors) = &node.kind
+        && factors.iter().any(|f| matches!(f.kind, Kind::Juxt(_)))
+    {
+        let parts = factors.iter().flat_map(|f| match &f.kind {
+            Kind::Juxt(inner) => inner.clone(),
+            _ => vec![f.clone()],
+        });
+        node.kind = Kind::Juxt(parts.collect());
+    }
+    node
 }
 
 /// The node at a path.

@@ -61,7 +61,8 @@ pub fn meant(book: &Book, index: usize, tree: &Node, links: &[LinkJudgement], op
     let near = Near::new(&printed, index, tree);
     let mut search = Search { book: &printed, index, tree, links, options, trial, near };
     let found = search.run();
-    let suggestion = |(change, tree): (Change, Node)| Suggestion { latex: to_latex(&tree), edit: change.edits.join("; ") };
+    let suggestion =
+        |(change, tree): (Change, Node)| Suggestion { latex: to_latex(&tree), edit: change.edits.join("; ") };
     found.into_iter().take(MOST).map(suggestion).collect()
 }
 
@@ -114,7 +115,8 @@ impl<'b> Search<'b> {
         let changes: Vec<(EditKind, Change)> = found.map(|f| (f.edit.kind, self.change(f))).collect();
         let mut all: Vec<Change> = Vec::new();
         for (n, (kind, change)) in changes.iter().enumerate() {
-            if matches!(kind, EditKind::Symbol | EditKind::Index | EditKind::Prime | EditKind::Dot | EditKind::Replace) {
+            if matches!(kind, EditKind::Symbol | EditKind::Index | EditKind::Prime | EditKind::Dot | EditKind::Replace)
+            {
                 let same = |other: &&(EditKind, Change)| other.1.edits == change.edits;
                 let is_first = !changes[..n].iter().any(|c| same(&c));
                 let mut everywhere = change.clone();
@@ -147,8 +149,8 @@ impl<'b> Search<'b> {
         let before = at(self.tree, &path).unwrap_or(self.tree);
         let scope = self.scope();
         let mut cost = likeness::cost(scope, edit.kind, before, &node);
-        if Name::of(scope, &node).is_some_and(|n| !self.near.has(&n.entry.pattern)) {
-            cost += likeness::FAR;
+        if let Some(name) = Name::of(scope, &node) {
+            cost += self.near.distance(&name.entry.pattern);
         }
         Change::new(path, node, edit.text, cost)
     }
@@ -183,8 +185,7 @@ impl<'b> Search<'b> {
             if found.len() >= HOLDING {
                 break;
             }
-            let Some(tree) = reread(&change.made(self.tree)) else { continue };
-            if self.trial.holds_at(&tree, links) {
+            if self.trial.holds_at(&change.made(self.tree), links) {
                 found.push(change);
             }
         }
@@ -200,11 +201,16 @@ impl<'b> Search<'b> {
             if found.len() >= MOST {
                 break;
             }
-            let Some(tree) = reread(&change.made(self.tree)) else { continue };
-            if found.iter().chain(&idle).any(|(_, t)| self.trial.say_the_same(t, &tree)) {
+            let made = change.made(self.tree);
+            if self.trial.judge(&made) != Outcome::Holds {
                 continue;
             }
-            if self.trial.judge(&tree) != Outcome::Holds {
+            // What is suggested is what is read from its LaTeX.
+            let tree = match latex::parse(&to_latex(&made)) {
+                Ok(tree) if matches!(self.trial.judge(&tree), Outcome::Holds | Outcome::Definition) => tree,
+                _ => continue,
+            };
+            if found.iter().chain(&idle).any(|(_, t)| self.trial.say_the_same(t, &tree)) {
                 continue;
             }
             let group = if self.is_idle(&change) { &mut idle } else { &mut found };
@@ -219,7 +225,8 @@ impl<'b> Search<'b> {
     fn is_idle(&mut self, change: &Change) -> bool {
         let made = change.made(self.tree);
         change.places.iter().any(|(path, _)| {
-            let is_sum = |k: &usize| at(&made, &path[..*k]).is_some_and(|n| matches!(n.kind, Kind::Sum(_) | Kind::Chain { .. }));
+            let is_sum =
+                |k: &usize| at(&made, &path[..*k]).is_some_and(|n| matches!(n.kind, Kind::Sum(_) | Kind::Chain { .. }));
             let Some(length) = (0..path.len()).rev().find(is_sum) else { return false };
             let term = &path[..=length];
             let Some(node) = at(&made, term) else { return false };
@@ -228,14 +235,9 @@ impl<'b> Search<'b> {
             let beside_null = at(&made, &path[..length]).is_some_and(|parent| {
                 matches!(parent.kind, Kind::Chain { .. }) && parent.children().into_iter().any(super::shape::is_null)
             });
-            !beside_null && reread(&scaled).is_some_and(|t| self.trial.judge(&t) == Outcome::Holds)
+            !beside_null && self.trial.judge(&scaled) == Outcome::Holds
         })
     }
-}
-
-/// The tree as its LaTeX is read: what is suggested is what was judged.
-fn reread(tree: &Node) -> Option<Node> {
-    latex::parse(&to_latex(tree)).ok()
 }
 
 /// The links of each row of sides that are linked by equality, definitions aside.

@@ -10,7 +10,8 @@
 //! | 7 | a term left out; a term taken from a formula nearby |
 //! | 8 | a fraction turned over; a symbol replaced by a product; a term put in, and 1 for each symbol beyond the first |
 //!
-//! A symbol that neither the formula nor those nearby have costs 3 more; the same edit in every place 2 more.
+//! A symbol that no formula nearby has costs 3 more, one that only premises have 1 more; the same edit in every place 2
+//! more.
 
 use crate::latex::ast::{Kind, Node};
 use crate::semantics::Scope;
@@ -18,8 +19,10 @@ use crate::semantics::Scope;
 use super::mutants::EditKind;
 use super::names::{Name, look_alike};
 
-/// What a symbol from far away costs.
+/// What a symbol costs more that no formula nearby has.
 pub const FAR: u32 = 3;
+/// What a symbol costs more that only the premises of the prose have.
+pub const STATED: u32 = 1;
 /// What a factor costs that is put in.
 pub const INSERTED: u32 = 6;
 /// What a term costs that stands in a formula nearby.

@@ -10,6 +10,7 @@ use crate::latex::ast::{Kind, Node};
 use crate::latex::{self, to_latex};
 use crate::semantics::{EntryKind, Scope};
 
+use super::likeness;
 use super::names::{Name, indices};
 
 /// How many displays before and after are looked at.
@@ -19,8 +20,9 @@ const AROUND: usize = 2;
 pub struct Near {
     /// The formulas.
     pub formulas: Vec<Node>,
-    /// The patterns of the declared symbols in them.
-    patterns: HashSet<String>,
+    /// The patterns of the declared symbols in displays, and in premises that the prose states.
+    displayed: HashSet<String>,
+    stated: HashSet<String>,
     /// The symbols in them, without powers, each once.
     pub symbols: Vec<Node>,
     /// The letters of the indices of the formula's own symbols.
@@ -31,23 +33,30 @@ impl Near {
     /// Looks around.
     pub fn new(book: &Book, index: usize, tree: &Node) -> Self {
         let entry = &book.entries[index];
-        let mut formulas = vec![tree.clone()];
         let given = entry.list(|a| &a.given).iter().chain(entry.list(|a| &a.solves));
         let given: Vec<usize> = given.filter_map(|g| book.find(&g.value)).map(|(k, _)| k).collect();
         let formula = |k: usize, version| book.entries[k].formula(version).tree.as_ref().ok().cloned();
-        formulas.extend(given.iter().filter_map(|k| formula(*k, Version::Corrected)));
-        let premises = entry.list(|a| &a.where_).iter().chain(&entry.scope.assume);
-        formulas.extend(premises.filter_map(|p| latex::parse(&p.value).ok()));
         let mut around: Vec<usize> = (index.saturating_sub(AROUND)..=index + AROUND)
             .filter(|k| *k != index && *k < book.entries.len() && !given.contains(k))
             .collect();
         around.sort_by_key(|k| k.abs_diff(index));
-        formulas.extend(around.into_iter().filter_map(|k| formula(k, Version::Printed)));
-        let mut near =
-            Near { formulas: Vec::new(), patterns: HashSet::new(), symbols: Vec::new(), letters: Vec::new() };
-        for formula in &formulas {
-            near.collect(&entry.scope, formula);
-        }
+        let displays = given.iter().filter_map(|k| formula(*k, Version::Corrected));
+        let displays: Vec<Node> = std::iter::once(tree.clone())
+            .chain(displays)
+            .chain(around.into_iter().filter_map(|k| formula(k, Version::Printed)))
+            .collect();
+        let premises = entry.list(|a| &a.where_).iter().chain(&entry.scope.assume);
+        let premises: Vec<Node> = premises.filter_map(|p| latex::parse(&p.value).ok()).collect();
+        let mut near = Near {
+            formulas: Vec::new(),
+            displayed: HashSet::new(),
+            stated: HashSet::new(),
+            symbols: Vec::new(),
+            letters: Vec::new(),
+        };
+        displays.iter().for_each(|f| near.collect(&entry.scope, f, true));
+        premises.iter().for_each(|f| near.collect(&entry.scope, f, false));
+        let formulas = displays.into_iter().chain(premises).collect();
         let mut own = Vec::new();
         letters(&entry.scope, tree, &mut own);
         near.letters = own;
@@ -55,28 +64,41 @@ impl Near {
         near
     }
 
-    /// Whether a symbol occurs near.
-    pub fn has(&self, pattern: &str) -> bool {
-        self.patterns.contains(pattern)
+    /// What a symbol costs for standing far away.
+    pub fn distance(&self, pattern: &str) -> u32 {
+        if self.displayed.contains(pattern) {
+            0
+        } else if self.stated.contains(pattern) {
+            likeness::STATED
+        } else {
+            likeness::FAR
+        }
     }
 
-    fn collect(&mut self, scope: &Scope, node: &Node) {
+    /// What a symbol is said to equal in the formulas nearby: the sides beside it.
+    pub fn definitions(&self, scope: &Scope, pattern: &str) -> Vec<Node> {
+        let mut found = Vec::new();
+        self.formulas.iter().for_each(|f| equals(scope, f, pattern, &mut found));
+        found
+    }
+
+    fn collect(&mut self, scope: &Scope, node: &Node, displayed: bool) {
         if let Some(name) = Name::of(scope, node) {
             let bare = name.without_power();
-            self.patterns.insert(name.entry.pattern.clone());
+            let patterns = if displayed { &mut self.displayed } else { &mut self.stated };
+            patterns.insert(name.entry.pattern.clone());
             if self.symbols.iter().all(|s| to_latex(s) != to_latex(&bare)) {
                 self.symbols.push(bare);
             }
         } else if !matches!(node.kind, Kind::Text(_)) {
-            node.children().into_iter().for_each(|child| self.collect(scope, child));
+            node.children().into_iter().for_each(|child| self.collect(scope, child, displayed));
         }
     }
 
     /// The scalars, those of the formula itself first.
     pub fn scalars<'n>(&'n self, scope: &'n Scope) -> impl Iterator<Item = &'n Node> {
         let scalar = |n: &&Node| {
-            Name::of(scope, n)
-                .is_some_and(|n| matches!(n.entry.kind, EntryKind::Scalar | EntryKind::Component { .. }))
+            Name::of(scope, n).is_some_and(|n| matches!(n.entry.kind, EntryKind::Scalar | EntryKind::Component { .. }))
         };
         self.symbols.iter().filter(scalar)
     }
@@ -119,6 +141,19 @@ fn terms(node: &Node, is_term: bool, found: &mut dyn FnMut(&Node)) {
             node.children().into_iter().for_each(|c| terms(c, false, found));
         }
     }
+}
+
+/// The sides of relations beside one that is a symbol alone.
+fn equals(scope: &Scope, node: &Node, pattern: &str, found: &mut Vec<Node>) {
+    if let Kind::Chain { first: Some(first), links } = &node.kind {
+        let sides: Vec<&Node> = std::iter::once(first.as_ref()).chain(links.iter().map(|l| &l.rhs)).collect();
+        let is_it = |n: &&&Node| Name::of(scope, n).is_some_and(|n| n.entry.pattern == pattern && n.dots == 0);
+        if sides.iter().any(|n| is_it(&n)) {
+            found.extend(sides.iter().filter(|n| !is_it(n)).map(|n| (*n).clone()));
+        }
+        return;
+    }
+    node.children().into_iter().for_each(|child| equals(scope, child, pattern, found));
 }
 
 fn letters(scope: &Scope, node: &Node, found: &mut Vec<String>) {

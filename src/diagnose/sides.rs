@@ -37,7 +37,8 @@ struct Printed {
     /// The clause it is evaluated with, and whether it is its left side.
     clause: usize,
     left: bool,
-    values: Vec<f64>,
+    /// `None` where it makes no sense as it stands.
+    values: Option<Vec<f64>>,
 }
 
 /// A side with edits.
@@ -58,6 +59,8 @@ pub struct Row<'s, 'b> {
     variants: Vec<Variant>,
     /// The size of the sides' values.
     scale: f64,
+    /// How many values each side has.
+    length: usize,
     seen: HashSet<(usize, String)>,
     /// Changes whose sides the states do not cover.
     pub elsewhere: Vec<Change>,
@@ -72,6 +75,7 @@ impl<'s, 'b> Row<'s, 'b> {
             sides: Vec::new(),
             variants: Vec::new(),
             scale: 0.0,
+            length: 0,
             seen: HashSet::new(),
             elsewhere: Vec::new(),
         };
@@ -84,23 +88,29 @@ impl<'s, 'b> Row<'s, 'b> {
         let mut from = Vec::new();
         for (node, clause, left) in nodes {
             let path = (!(left && first.continued)).then(|| find(tree, &node, &mut from)).flatten();
-            let Sight::Values(values) = row.evaluate(clause, left, &node) else { return None };
+            let values = match row.evaluate(clause, left, &node) {
+                Sight::Values(values) => Some(values),
+                Sight::Senseless => None,
+                Sight::Elsewhere => return None,
+            };
             row.sides.push(Printed { path, node, clause, left, values });
         }
-        let all = row.sides.iter().flat_map(|s| &s.values);
-        row.scale = all.fold(0.0_f64, |m, x| m.max(x.abs()));
-        if first.rhs == Side::Constant {
-            // What is constant has the derivative 0.
-            let values = vec![0.0; row.sides[0].values.len()];
-            row.sides.push(Printed { path: None, node: first.lhs.clone(), clause: 0, left: true, values });
-        }
-        let lengths: HashSet<usize> = row.sides.iter().map(|s| s.values.len()).collect();
-        if lengths.len() != 1 || !row.scale.is_finite() || row.scale == 0.0 {
+        let known = row.sides.iter().filter_map(|s| s.values.as_ref());
+        row.scale = known.clone().flatten().fold(0.0_f64, |m, x| m.max(x.abs()));
+        let lengths: HashSet<usize> = known.map(Vec::len).collect();
+        if lengths.len() != 1 || !row.scale.is_finite() {
             return None;
         }
+        row.length = lengths.into_iter().next()?;
+        if first.rhs == Side::Constant {
+            // What is constant has the derivative 0.
+            let values = Some(vec![0.0; row.length]);
+            row.sides.push(Printed { path: None, node: first.lhs.clone(), clause: 0, left: true, values });
+        }
         for k in 0..row.sides.len() {
-            let (node, values) = (row.sides[k].node.clone(), row.sides[k].values.clone());
-            row.add(k, Change::default(), node, values);
+            if let Some(values) = row.sides[k].values.clone() {
+                row.add(k, Change::default(), row.sides[k].node.clone(), values);
+            }
         }
         Some(row)
     }
@@ -114,7 +124,11 @@ impl<'s, 'b> Row<'s, 'b> {
     }
 
     fn add(&mut self, side: usize, change: Change, node: Node, values: Vec<f64>) {
-        let key = key(&values) / self.scale;
+        if self.scale == 0.0 {
+            // Where 0 is all that is printed, the first formula that is not shows the size.
+            self.scale = values.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+        }
+        let key = key(&values);
         if key.is_finite() {
             self.variants.push(Variant { side, change, node, values, key });
         }
@@ -127,7 +141,7 @@ impl<'s, 'b> Row<'s, 'b> {
         }
         let (clause, left) = (self.sides[side].clause, self.sides[side].left);
         match self.evaluate(clause, left, &node) {
-            Sight::Values(values) if values.len() == self.sides[side].values.len() => {
+            Sight::Values(values) if values.len() == self.length => {
                 self.add(side, change, node, values);
             }
             Sight::Elsewhere => self.elsewhere.push(change),
@@ -141,7 +155,8 @@ impl<'s, 'b> Row<'s, 'b> {
             let Some(side) = self.side_of(change) else { continue };
             let Some(prefix) = self.sides[side].path.clone() else { continue };
             let places = change.places.iter();
-            let node = places.fold(self.sides[side].node.clone(), |n, (p, new)| replaced_at(&n, &p[prefix.len()..], new));
+            let node =
+                places.fold(self.sides[side].node.clone(), |n, (p, new)| replaced_at(&n, &p[prefix.len()..], new));
             self.try_variant(side, change.clone(), node);
         }
     }
@@ -155,9 +170,9 @@ impl<'s, 'b> Row<'s, 'b> {
     /// The values that the printed sides have, each once.
     fn targets(&self) -> Vec<Vec<f64>> {
         let mut targets: Vec<Vec<f64>> = Vec::new();
-        for side in &self.sides {
-            if targets.iter().all(|t| !self.equal(t, &side.values)) {
-                targets.push(side.values.clone());
+        for values in self.sides.iter().filter_map(|s| s.values.as_ref()) {
+            if targets.iter().all(|t| !self.equal(t, values)) {
+                targets.push(values.clone());
             }
         }
         targets
@@ -171,7 +186,9 @@ impl<'s, 'b> Row<'s, 'b> {
     /// Fills holes in the printed sides: what factor or term is missing.
     pub fn fill(&mut self, lexicon: &Lexicon) {
         for k in 0..self.sides.len() {
-            self.fill_side(lexicon, k, &Change::default(), &self.sides[k].node.clone(), &self.sides[k].values.clone());
+            if let Some(values) = self.sides[k].values.clone() {
+                self.fill_side(lexicon, k, &Change::default(), &self.sides[k].node.clone(), &values);
+            }
         }
     }
 
@@ -199,7 +216,8 @@ impl<'s, 'b> Row<'s, 'b> {
                 for filling in lexicon.products(&factor).into_iter().take(KEPT).filter(|f| !f.is_one()) {
                     let new = signed(filling.negative, filling.applied(&old));
                     let sign = if filling.negative { "-" } else { "" };
-                    let text = format!("the factor `{sign}{}` put before `{}`", to_latex(&filling.node()), to_latex(&old));
+                    let text =
+                        format!("the factor `{sign}{}` put before `{}`", to_latex(&filling.node()), to_latex(&old));
                     found.push((new, text, factor_cost(&filling) + u32::from(filling.negative)));
                 }
             }
@@ -251,9 +269,9 @@ impl<'s, 'b> Row<'s, 'b> {
             for (k, x) in wanted.iter_mut().enumerate() {
                 // All components must want the same; the one that moves most decides.
                 let component = (k..values.len()).step_by(STATES);
-                let best = component.clone().max_by(|a, b| {
-                    (moved[*a] - values[*a]).abs().total_cmp(&(moved[*b] - values[*b]).abs())
-                })?;
+                let best = component
+                    .clone()
+                    .max_by(|a, b| (moved[*a] - values[*a]).abs().total_cmp(&(moved[*b] - values[*b]).abs()))?;
                 *x = (target[best] - values[best]) / (moved[best] - values[best]);
                 let agrees = |c: usize| {
                     let change = *x * (moved[c] - values[c]);
@@ -273,19 +291,25 @@ impl<'s, 'b> Row<'s, 'b> {
     pub fn pair(&mut self) {
         let targets = self.targets();
         for side in 0..self.sides.len() {
-            let Some(prefix) = self.sides[side].path.clone() else { continue };
+            let (Some(prefix), Some(values)) = (self.sides[side].path.clone(), self.sides[side].values.clone()) else {
+                continue;
+            };
             let mut order: Vec<usize> = (0..self.variants.len()).filter(|k| self.variants[*k].side == side).collect();
-            order.retain(|k| self.variants[*k].change.places.iter().all(|(p, _)| *p != prefix) && !self.variants[*k].change.is_none());
+            order.retain(|k| {
+                self.variants[*k].change.places.iter().all(|(p, _)| *p != prefix) && !self.variants[*k].change.is_none()
+            });
             order.sort_by(|a, b| self.variants[*a].key.total_cmp(&self.variants[*b].key));
-            let own = key(&self.sides[side].values) / self.scale;
+            let own = key(&values);
             let mut pairs: Vec<(usize, usize)> = Vec::new();
-            for target in targets.iter().filter(|t| !self.equal(t, &self.sides[side].values)) {
-                let wanted = key(target) / self.scale;
+            for target in targets.iter().filter(|t| !self.equal(t, &values)) {
+                let wanted = key(target);
                 for (n, a) in order.iter().enumerate() {
                     let rest = wanted + own - self.variants[*a].key;
-                    let tolerance = 1e3 * NEAR * (1.0 + rest.abs());
+                    let tolerance = 10.0 * NEAR * (self.scale + rest.abs());
                     let from = order.partition_point(|b| self.variants[*b].key < rest - tolerance).max(n + 1);
-                    let hits = order[from.min(order.len())..].iter().take_while(|b| self.variants[**b].key <= rest + tolerance);
+                    let hits = order[from.min(order.len())..]
+                        .iter()
+                        .take_while(|b| self.variants[**b].key <= rest + tolerance);
                     pairs.extend(hits.map(|b| (*a, *b)));
                 }
             }
@@ -294,7 +318,8 @@ impl<'s, 'b> Row<'s, 'b> {
                 let Some(mut both) = self.variants[a].change.and(&self.variants[b].change) else { continue };
                 both.cost += likeness::FURTHER;
                 let places = both.places.iter();
-                let node = places.fold(self.sides[side].node.clone(), |n, (p, new)| replaced_at(&n, &p[prefix.len()..], new));
+                let node =
+                    places.fold(self.sides[side].node.clone(), |n, (p, new)| replaced_at(&n, &p[prefix.len()..], new));
                 self.try_variant(side, both, node);
             }
         }
@@ -329,7 +354,7 @@ impl<'s, 'b> Row<'s, 'b> {
         let mut from = 0;
         while from < order.len() {
             let start = self.variants[order[from]].key;
-            let tolerance = 1e3 * NEAR * (1.0 + start.abs());
+            let tolerance = 10.0 * NEAR * (self.scale + start.abs());
             let length = order[from..].iter().take_while(|k| self.variants[**k].key <= start + tolerance).count();
             found.extend(self.joined(&order[from..from + length]));
             from += length;

@@ -19,7 +19,7 @@ const DEPTH: usize = 3;
 /// The cost up to which an edit is likely enough for pairs to be tried.
 const LIKELY: u32 = 3;
 /// How many factors may be put in.
-const FACTORS: usize = 14;
+const FACTORS: usize = 18;
 /// How many formulas that hold are enough.
 const ENOUGH: usize = 6;
 
@@ -81,15 +81,14 @@ fn holding(trial: &mut Trial, tree: &Node, tried: &[(Change, usize)]) -> Vec<Cha
 }
 
 /// The factors that may have been left out: one half, the scalars of the formula and of those nearby, and the sines and
-/// cosines of its angles.
+/// cosines of the first angles.
 pub fn factors(near: &Near, scope: &Scope) -> Vec<Node> {
     let scalars: Vec<Node> = near.scalars(scope).cloned().collect();
     let is_angle = |n: &&Node| Name::of(scope, n).is_some_and(|n| n.entry.is_angle() && n.dots == 0);
     let angles = scalars.iter().filter(is_angle);
     let turned = angles.flat_map(|n| ["\\sin", "\\cos"].map(|f| latex::parse(&format!("{f} {}", to_latex(n)))));
     let half = latex::parse("\\frac{1}{2}");
-    let mut all: Vec<Node> = turned.chain([half]).filter_map(Result::ok).collect();
-    all.extend(scalars);
-    all.truncate(FACTORS);
-    all
+    let turned: Vec<Node> = turned.filter_map(Result::ok).take(FACTORS / 3).collect();
+    let rest = FACTORS - turned.len();
+    half.into_iter().chain(scalars.iter().take(rest).cloned()).chain(turned).collect()
 }

@@ -8,7 +8,7 @@ use crate::semantics::units::Dimension;
 
 use super::change::Path;
 use super::edits::Found;
-use super::mutants::{Edit, EditKind};
+use super::mutants::{Edit, EditKind, replaced_at};
 use super::names::{Name, indices, placed, with_indices};
 use super::near::Near;
 use super::shape::{group, is_words, juxt};
@@ -39,6 +39,7 @@ impl Wider<'_> {
     fn visit(&mut self, node: &Node) {
         if let Some(name) = Name::of(self.scope, node) {
             self.indices(node, &name);
+            self.definitions(node, &name);
             self.products(node, &name);
             return;
         }
@@ -132,32 +133,71 @@ impl Wider<'_> {
 
     /// Indices lost or gained: `m` to `m_i`, `m_i` to `m`.
     fn indices(&mut self, node: &Node, name: &Name) {
+        for new in self.reindexed(name) {
+            let text = format!("`{}` changed to `{}`", to_latex(node), to_latex(&new));
+            self.edit(EditKind::Index, node, new, text);
+        }
+    }
+
+    /// The symbol with an index lost or gained.
+    fn reindexed(&self, name: &Name) -> Vec<Node> {
         let own = indices(self.scope, &name.bare).len();
         let head = |pattern: &str| pattern.split(['_', '#', '{']).next().unwrap_or_default().trim().to_owned();
         let letter = head(&name.entry.pattern);
-        let others: Vec<String> = self
-            .scope
-            .entries()
-            .filter(|e| e.pattern != name.entry.pattern && head(&e.pattern) == letter)
-            .map(|e| e.pattern.clone())
-            .collect();
-        for pattern in others {
-            let letters: Vec<Vec<String>> = match pattern.matches('#').count() {
+        let mut found = Vec::new();
+        for entry in self.scope.entries().filter(|e| e.pattern != name.entry.pattern && head(&e.pattern) == letter) {
+            let letters: Vec<Vec<String>> = match entry.pattern.matches('#').count() {
                 0 if own > 0 => vec![Vec::new()],
                 1 if own == 0 => self.near.letters.iter().map(|l| vec![l.clone()]).collect(),
                 _ => continue,
             };
-            for other in letters.iter().filter_map(|l| with_indices(&pattern, l)) {
-                let new = name.replaced(&other, name.dots);
-                let text = format!("`{}` changed to `{}`", to_latex(node), to_latex(&new));
-                self.edit(EditKind::Index, node, new, text);
+            let others = letters.iter().filter_map(|l| with_indices(&entry.pattern, l));
+            found.extend(others.map(|other| name.replaced(&other, name.dots)));
+        }
+        found
+    }
+
+    /// A symbol for what it is said to equal nearby, with at most one index lost or gained there: `\mathbf{P}` for
+    /// `m \mathbf{v}` or `m_i \mathbf{v}`.
+    fn definitions(&mut self, node: &Node, name: &Name) {
+        if name.dots > 0 {
+            return;
+        }
+        let mut seen = Vec::new();
+        for side in self.near.definitions(self.scope, &name.entry.pattern) {
+            let mut variants = vec![side.clone()];
+            variants.extend(self.with_one_reindexed(&side));
+            for variant in variants.into_iter().filter(|v| !matches!(v.kind, Kind::Number(_) | Kind::Text(_))) {
+                let new = match &variant.kind {
+                    Kind::Sum(_) => group(variant, &node.span),
+                    _ => variant,
+                };
+                let latex = to_latex(&new);
+                if seen.len() < PRODUCTS && !seen.contains(&latex) {
+                    let text = format!("`{}` changed to `{latex}`", to_latex(node));
+                    self.edit(EditKind::Replace, node, placed(&new, &node.span), text);
+                    seen.push(latex);
+                }
             }
         }
     }
 
+    /// The trees in which one symbol has an index lost or gained.
+    fn with_one_reindexed(&self, node: &Node) -> Vec<Node> {
+        if let Some(name) = Name::of(self.scope, node) {
+            return self.reindexed(&name);
+        }
+        let mut found = Vec::new();
+        for (k, child) in node.children().into_iter().enumerate() {
+            found.extend(self.with_one_reindexed(child).into_iter().map(|new| replaced_at(node, &[k], &new)));
+        }
+        found
+    }
+
     /// A vector for a product of its dimension: `\mathbf{P}` for `m \dot{\mathbf{r}}`.
     fn products(&mut self, node: &Node, name: &Name) {
-        let is_vector = self.near.vectors(self.scope).any(|v| Name::of(self.scope, v).is_some_and(|v| v.entry == name.entry));
+        let is_vector =
+            self.near.vectors(self.scope).any(|v| Name::of(self.scope, v).is_some_and(|v| v.entry == name.entry));
         let Some(own) = dimension(name).filter(|_| is_vector) else { return };
         let mut made = 0;
         let scalars: Vec<Node> = self.near.scalars(self.scope).cloned().collect();
