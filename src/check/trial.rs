@@ -133,26 +133,31 @@ impl<'b> Trial<'b> {
             .unwrap_or(Outcome::Holds)
     }
 
-    /// Whether the links of these numbers hold in a formula with as many links as the original, whatever the others do.
-    pub fn holds_at(&mut self, tree: &Node, links: &[usize]) -> bool {
-        let Ok(statement) = self.source.book.statement_of(self.source.index, tree) else { return false };
+    /// What becomes of the links of these numbers in a formula with as many links as the original, whatever the others
+    /// do: the worst of them.
+    pub fn outcome_at(&mut self, tree: &Node, links: &[usize]) -> Outcome {
+        let Ok(statement) = self.source.book.statement_of(self.source.index, tree) else { return Outcome::Unclear };
         if self.solution || statement.clauses.len() != self.links.len() {
-            return false;
+            return Outcome::Unclear;
         }
         let mut confirm = Vec::new();
         for k in links.iter().copied() {
             if statement.clauses[k] == self.statement.clauses[k] {
                 if self.links[k].verdict > Verdict::Asymptotic {
-                    return false;
+                    return Outcome::Fails;
                 }
                 continue;
             }
             match self.quick(k, &statement.clauses[k]) {
                 Quick::Agrees | Quick::Elsewhere => confirm.push(k),
-                Quick::Differs | Quick::Error(_) => return false,
+                Quick::Differs => return Outcome::Fails,
+                Quick::Error(_) => return Outcome::Unclear,
             }
         }
-        confirm.into_iter().all(|k| self.link_in_full(&statement, k) == Outcome::Holds)
+        let outcomes: Vec<Outcome> = confirm.into_iter().map(|k| self.link_in_full(&statement, k)).collect();
+        let bad = outcomes.iter().find(|o| !matches!(o, Outcome::Holds | Outcome::Definition));
+        let definition = outcomes.iter().find(|o| **o == Outcome::Definition);
+        *bad.or(definition).unwrap_or(&Outcome::Holds)
     }
 
     /// Whether a formula says the same as the original, whatever the premises are: see [`sameness`].

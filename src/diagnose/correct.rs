@@ -115,8 +115,7 @@ impl<'b> Search<'b> {
         let changes: Vec<(EditKind, Change)> = found.map(|f| (f.edit.kind, self.change(f))).collect();
         let mut all: Vec<Change> = Vec::new();
         for (n, (kind, change)) in changes.iter().enumerate() {
-            if matches!(kind, EditKind::Symbol | EditKind::Index | EditKind::Prime | EditKind::Dot | EditKind::Replace)
-            {
+            if repeats(*kind) {
                 let same = |other: &&(EditKind, Change)| other.1.edits == change.edits;
                 let is_first = !changes[..n].iter().any(|c| same(&c));
                 let mut everywhere = change.clone();
@@ -149,6 +148,12 @@ impl<'b> Search<'b> {
         let before = at(self.tree, &path).unwrap_or(self.tree);
         let scope = self.scope();
         let mut cost = likeness::cost(scope, edit.kind, before, &node);
+        // What a formula is printed for stands by itself: a factor is rather missing elsewhere.
+        let is_side =
+            path.split_last().and_then(|(_, p)| at(self.tree, p)).is_some_and(|p| matches!(p.kind, Kind::Chain { .. }));
+        if is_side && Name::of(scope, before).is_some() && matches!(edit.kind, EditKind::Insert | EditKind::Double) {
+            cost += likeness::SUBJECT;
+        }
         if let Some(name) = Name::of(scope, &node) {
             cost += self.near.distance(&name.entry.pattern);
         }
@@ -166,6 +171,7 @@ impl<'b> Search<'b> {
         let lexicon = Lexicon::new(&mut screen, self.scope(), &self.near, self.tree);
         let mut row = Row::new(&mut screen, &own, self.tree)?;
         row.enter(singles);
+        row.enter_on_sense(singles);
         row.fill(&lexicon);
         let mut found = self.confirmed(row.matches(), numbers);
         let elsewhere: Vec<Change> = std::mem::take(&mut row.elsewhere).into_iter().take(ELSEWHERE).collect();
@@ -185,8 +191,11 @@ impl<'b> Search<'b> {
             if found.len() >= HOLDING {
                 break;
             }
-            if self.trial.holds_at(&change.made(self.tree), links) {
-                found.push(change);
+            match self.trial.outcome_at(&change.made(self.tree), links) {
+                Outcome::Holds => found.push(change),
+                // What then only introduces a symbol can contradict nothing: it may have been meant, with little reason.
+                Outcome::Definition => found.push(Change { cost: change.cost + likeness::DEFINES, ..change }),
+                _ => {}
             }
         }
         found
@@ -202,7 +211,8 @@ impl<'b> Search<'b> {
                 break;
             }
             let made = change.made(self.tree);
-            if self.trial.judge(&made) != Outcome::Holds {
+            // A definition beside what is mended may change with it.
+            if !matches!(self.trial.judge(&made), Outcome::Holds | Outcome::Definition) {
                 continue;
             }
             // What is suggested is what is read from its LaTeX.
@@ -238,6 +248,14 @@ impl<'b> Search<'b> {
             !beside_null && self.trial.judge(&scaled) == Outcome::Holds
         })
     }
+}
+
+/// Whether an edit is likely to be made in every place at once: what was misread once is misread again.
+fn repeats(kind: EditKind) -> bool {
+    matches!(
+        kind,
+        EditKind::Symbol | EditKind::Index | EditKind::Prime | EditKind::Dot | EditKind::Replace | EditKind::DropFactor
+    )
 }
 
 /// The links of each row of sides that are linked by equality, definitions aside.

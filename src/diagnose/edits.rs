@@ -2,7 +2,7 @@
 
 use crate::latex::ast::{Kind, Node, ProductOp, Sign, Span, Term};
 use crate::latex::to_latex;
-use crate::semantics::{Scope, spelling};
+use crate::semantics::{EntryKind, Scope, spelling};
 
 use super::mutants::{Edit, EditKind, Reach};
 use super::names::{Name, siblings};
@@ -356,7 +356,9 @@ impl<'s> Walk<'s> {
             let text = format!("`{shown}` changed to `{}`", to_latex(&without_power(&new)));
             self.edit(kind, new, &node.span, text);
         }
-        if name.entry.of_t || name.dots > 0 {
+        // Another notation of a symbol that depends on time has dots, too.
+        let renamed = matches!(name.entry.kind, EntryKind::Same(_)) && !self.reach.factors.is_empty();
+        if name.entry.of_t || name.dots > 0 || renamed {
             for dots in [name.dots.wrapping_sub(1), name.dots + 1] {
                 if dots <= 3 {
                     let new = name.replaced(&name.bare, dots);

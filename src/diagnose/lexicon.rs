@@ -16,6 +16,8 @@ use super::shape::times;
 const ATOMS: usize = 22;
 /// How many of them stand in a product, above and below the bar.
 const LONGEST: usize = 3;
+/// How many stand in a product of the nearest atoms alone, and how many those are.
+const LONGEST_NEAR: (usize, usize) = (4, 12);
 /// The numbers that may stand before a product.
 const NUMBERS: [(u32, u32); 8] = [(1, 1), (2, 1), (1, 2), (3, 1), (1, 3), (4, 1), (1, 4), (3, 2)];
 /// How near two values must be, relative to their size.
@@ -50,6 +52,8 @@ pub struct Filling {
     pub below: Vec<Node>,
     /// How many symbols it has beyond the first, with what those cost that stand far away.
     pub length: u32,
+    /// Whether it is a piece of a formula nearby.
+    pub copied: bool,
 }
 
 /// The words of a formula's surroundings with their values.
@@ -57,13 +61,23 @@ pub struct Lexicon {
     atoms: Vec<Atom>,
     /// In the order of the size at the first state.
     products: Vec<Product>,
-    terms: Vec<(Node, Row)>,
+    /// Terms, roots, brackets and fractions nearby, alone and with an atom (times it, or over it); in the same order.
+    terms: Vec<Known>,
+    /// The vectors nearby with their values.
+    arrows: Vec<(Node, Vec<f64>)>,
+}
+
+/// A piece of a formula nearby.
+struct Known {
+    node: Node,
+    with: Option<(usize, bool)>,
+    row: Row,
 }
 
 impl Lexicon {
     /// Collects and evaluates.
     pub fn new(screen: &mut Screen, scope: &Scope, near: &Near, tree: &Node) -> Self {
-        let mut lexicon = Lexicon { atoms: Vec::new(), products: Vec::new(), terms: Vec::new() };
+        let mut lexicon = Lexicon { atoms: Vec::new(), products: Vec::new(), terms: Vec::new(), arrows: Vec::new() };
         let own = to_latex(tree);
         let mut nodes: Vec<Node> = Vec::new();
         for symbol in near.scalars(scope) {
@@ -83,19 +97,46 @@ impl Lexicon {
         let mut at = Vec::new();
         lexicon.grow(&mut at, 0, [1.0; STATES]);
         lexicon.products.sort_by(|a, b| a.row[0].abs().total_cmp(&b.row[0].abs()));
-        let terms = near.terms().into_iter().filter_map(|n| row(screen, &n).map(|r| (n, r)));
-        lexicon.terms = terms.collect();
+        lexicon.collect(screen, near.terms());
+        for arrow in near.arrows(scope) {
+            if let Sight::Values(values) = screen.value(arrow)
+                && values.iter().all(|x| x.is_finite())
+            {
+                lexicon.arrows.push((arrow.clone(), values));
+            }
+        }
         lexicon
+    }
+
+    fn collect(&mut self, screen: &mut Screen, pieces: Vec<Node>) {
+        for node in pieces {
+            let Some(own) = row(screen, &node) else { continue };
+            self.terms.push(Known { node: node.clone(), with: None, row: own });
+            for (k, atom) in self.atoms.iter().enumerate() {
+                for below in [false, true] {
+                    let both = |n: usize| if below { own[n] / atom.row[n] } else { own[n] * atom.row[n] };
+                    self.terms.push(Known {
+                        node: node.clone(),
+                        with: Some((k, below)),
+                        row: std::array::from_fn(both),
+                    });
+                }
+            }
+        }
+        self.terms.sort_by(|a, b| a.row[0].abs().total_cmp(&b.row[0].abs()));
     }
 
     /// Adds all products that begin with these literals: atom k above the bar is 2k, below it 2k + 1.
     fn grow(&mut self, literals: &mut Vec<usize>, from: usize, row: Row) {
         let part = |below: bool| literals.iter().filter(|l| (*l % 2 == 1) == below).map(|l| l / 2).collect();
         self.products.push(Product { above: part(false), below: part(true), row });
-        if literals.len() == LONGEST {
-            return;
-        }
-        for literal in from..2 * self.atoms.len() {
+        let near = literals.iter().all(|l| l / 2 < LONGEST_NEAR.1);
+        let last = match literals.len() {
+            0..LONGEST => self.atoms.len(),
+            n if n < LONGEST_NEAR.0 && near => LONGEST_NEAR.1.min(self.atoms.len()),
+            _ => return,
+        };
+        for literal in from..2 * last {
             // No atom above and below the bar.
             if literal % 2 == 1 && literals.contains(&(literal - 1)) {
                 continue;
@@ -108,8 +149,9 @@ impl Lexicon {
         }
     }
 
-    /// The products with a number that have these values, the shortest first.
-    pub fn products(&self, wanted: &Row) -> Vec<Filling> {
+    /// What has these values: products with a number, and pieces of formulas nearby with a number and an atom; the
+    /// shortest first.
+    pub fn fillings(&self, wanted: &Row) -> Vec<Filling> {
         let mut found: Vec<Filling> = Vec::new();
         if !wanted.iter().all(|x| x.is_finite() && x.abs() > 1e-12) {
             return found;
@@ -117,33 +159,68 @@ impl Lexicon {
         for number in NUMBERS {
             let scale = f64::from(number.0) / f64::from(number.1);
             let target: Row = wanted.map(|x| x / scale);
-            let size = target[0].abs();
-            let first = self.products.partition_point(|p| p.row[0].abs() < size * (1.0 - NEAR));
-            for product in self.products[first..].iter().take_while(|p| p.row[0].abs() <= size * (1.0 + NEAR)) {
-                let Some(negative) = equal(&target, &product.row) else { continue };
+            let counted = u32::from(number != (1, 1));
+            for (product, negative) in hits(&self.products, |p| &p.row, &target) {
                 let nodes = |of: &[usize]| of.iter().map(|k| self.atoms[*k].node.clone()).collect::<Vec<_>>();
                 let parts = || product.above.iter().chain(&product.below);
                 let far = parts().filter(|k| self.atoms[**k].far).count();
-                let symbols = u32::try_from(parts().count()).unwrap_or(u32::MAX);
-                let length = symbols.saturating_sub(1) + u32::from(number != (1, 1)) + u32::try_from(far).unwrap_or(0);
-                found.push(Filling {
-                    negative,
-                    number,
-                    above: nodes(&product.above),
-                    below: nodes(&product.below),
-                    length,
-                });
+                let length = small(parts().count()).saturating_sub(1) + counted + small(far);
+                let (above, below) = (nodes(&product.above), nodes(&product.below));
+                found.push(Filling { negative, number, above, below, length, copied: false });
+            }
+            for (known, negative) in hits(&self.terms, |k| &k.row, &target) {
+                let mut filling =
+                    Filling { negative, number, above: Vec::new(), below: Vec::new(), length: counted, copied: true };
+                filling.above.push(known.node.clone());
+                if let Some((k, below)) = known.with {
+                    let atom = self.atoms[k].node.clone();
+                    filling.length += 1;
+                    if below { filling.below.push(atom) } else { filling.above.insert(0, atom) }
+                }
+                found.push(filling);
             }
         }
         found.sort_by_key(|f| f.length);
         found
     }
 
-    /// The terms nearby that have these values, with whether they are to be subtracted.
-    pub fn terms(&self, wanted: &Row) -> Vec<(bool, Node)> {
-        let hits = self.terms.iter().filter_map(|(n, row)| equal(wanted, row).map(|negative| (negative, n.clone())));
-        hits.collect()
+    /// The vectors that have these values, up to a scalar factor.
+    pub fn arrows(&self, wanted: &[f64]) -> Vec<(Filling, Node)> {
+        let mut found = Vec::new();
+        for (arrow, values) in self.arrows.iter().filter(|(_, v)| v.len() == wanted.len()) {
+            let Some(factor) = ratio(wanted, values) else { continue };
+            found.extend(self.fillings(&factor).into_iter().take(2).map(|f| (f, arrow.clone())));
+        }
+        found.sort_by_key(|(f, _)| f.length);
+        found
     }
+}
+
+/// The entries of a list in the order of size that have these values, up to the sign.
+fn hits<'l, T>(list: &'l [T], row: fn(&T) -> &Row, target: &Row) -> Vec<(&'l T, bool)> {
+    let size = target[0].abs();
+    let first = list.partition_point(|t| row(t)[0].abs() < size * (1.0 - NEAR));
+    let near = list[first..].iter().take_while(|t| row(t)[0].abs() <= size * (1.0 + NEAR));
+    near.filter_map(|t| equal(target, row(t)).map(|negative| (t, negative))).collect()
+}
+
+/// The scalar, at each state, by which one vector is another.
+fn ratio(a: &[f64], b: &[f64]) -> Option<Row> {
+    let mut factors = [f64::NAN; STATES];
+    for (k, x) in factors.iter_mut().enumerate() {
+        let components = (k..b.len()).step_by(STATES);
+        let largest = components.clone().max_by(|i, j| b[*i].abs().total_cmp(&b[*j].abs()))?;
+        *x = a[largest] / b[largest];
+        let size = a[largest].abs();
+        if !x.is_finite() || !components.clone().all(|i| (a[i] - *x * b[i]).abs() <= 10.0 * NEAR * size) {
+            return None;
+        }
+    }
+    Some(factors)
+}
+
+fn small(n: usize) -> u32 {
+    u32::try_from(n).unwrap_or(u32::MAX)
 }
 
 /// Whether two rows are equal up to a common sign, and whether that is minus.
@@ -166,6 +243,16 @@ fn row(screen: &mut Screen, node: &Node) -> Option<Row> {
 }
 
 impl Filling {
+    /// What it costs where a factor is put in.
+    pub fn factor_cost(&self) -> u32 {
+        likeness::INSERTED + self.length + u32::from(self.negative)
+    }
+
+    /// What it costs where a term is put in.
+    pub fn term_cost(&self) -> u32 {
+        self.length + if self.copied { likeness::TERM } else { likeness::MADE_UP }
+    }
+
     /// Whether it is the number 1.
     pub fn is_one(&self) -> bool {
         !self.negative && self.number == (1, 1) && self.above.is_empty() && self.below.is_empty()
@@ -236,11 +323,6 @@ fn without_factor(node: &Node, factor: &Node) -> Option<Node> {
     })?;
     let rest: Vec<Node> = factors[..at].iter().chain(&factors[at + length..]).cloned().collect();
     (!rest.is_empty()).then(|| super::shape::juxt(&rest, &node.span))
-}
-
-/// What a filling costs where a factor is put in.
-pub fn factor_cost(filling: &Filling) -> u32 {
-    likeness::INSERTED + filling.length
 }
 
 /// A place for a factor or a term in a side.

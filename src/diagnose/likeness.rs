@@ -11,7 +11,8 @@
 //! | 8 | a fraction turned over; a symbol replaced by a product; a term put in, and 1 for each symbol beyond the first |
 //!
 //! A symbol that no formula nearby has costs 3 more, one that only premises have 1 more; the same edit in every place 2
-//! more.
+//! more; a factor before a side that is a symbol alone 1 more; a
+//! formula in which a link only introduces a symbol 4 more.
 
 use crate::latex::ast::{Kind, Node};
 use crate::semantics::Scope;
@@ -23,6 +24,10 @@ use super::names::{Name, look_alike};
 pub const FAR: u32 = 3;
 /// What a symbol costs more that only the premises of the prose have.
 pub const STATED: u32 = 1;
+/// What a factor costs more that is put before a side which is a symbol alone.
+pub const SUBJECT: u32 = 1;
+/// What a formula costs more in which a link only introduces a symbol.
+pub const DEFINES: u32 = 4;
 /// What a factor costs that is put in.
 pub const INSERTED: u32 = 6;
 /// What a term costs that stands in a formula nearby.

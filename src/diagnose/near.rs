@@ -111,7 +111,17 @@ impl Near {
         self.symbols.iter().filter(vector)
     }
 
-    /// The terms of all formulas: what stands between signs, relations and brackets, each once.
+    /// The vectors, those of bases included.
+    pub fn arrows<'n>(&'n self, scope: &'n Scope) -> impl Iterator<Item = &'n Node> {
+        let arrow = |n: &&Node| {
+            Name::of(scope, n).is_some_and(|n| {
+                matches!(n.entry.kind, EntryKind::Vector | EntryKind::Rate { .. } | EntryKind::BasisVector { .. })
+            })
+        };
+        self.symbols.iter().filter(arrow)
+    }
+
+    /// The terms of all formulas, and what stands in their brackets, roots and fractions, each once.
     pub fn terms(&self) -> Vec<Node> {
         let mut found = Vec::new();
         let mut seen = HashSet::new();
@@ -132,7 +142,15 @@ fn terms(node: &Node, is_term: bool, found: &mut dyn FnMut(&Node)) {
         Kind::Chain { .. } | Kind::Rows(_) | Kind::List(_) | Kind::Marked(..) | Kind::Matrix { .. } => {
             node.children().into_iter().for_each(|c| terms(c, true, found));
         }
-        Kind::Group { body, .. } => terms(body, is_term, found),
+        Kind::Group { body, .. } if is_term => terms(body, true, found),
+        Kind::Sqrt { body, .. } => {
+            found(node);
+            terms(body, true, found);
+        }
+        Kind::Group { .. } | Kind::Frac(..) => {
+            found(node);
+            node.children().into_iter().for_each(|c| terms(c, true, found));
+        }
         Kind::Number(_) | Kind::Text(_) | Kind::Empty => {}
         _ => {
             if is_term {

@@ -13,7 +13,7 @@ use crate::latex::to_latex;
 use crate::semantics::{Clause, Side};
 
 use super::change::{Change, Path, at};
-use super::lexicon::{Lexicon, factor_cost, slots};
+use super::lexicon::{Lexicon, slots};
 use super::likeness;
 use super::mutants::replaced_at;
 use super::shape::group;
@@ -24,6 +24,8 @@ const NEAR: f64 = 1e-9;
 const CONTINUED: usize = 120;
 /// How many pairs of edits in one product are tried.
 const PAIRS: usize = 3000;
+/// How many of the edits that make sense of a side are continued.
+const MAKING_SENSE: usize = 4;
 /// How many of the variants of one value are kept for each side, where several sides are edited.
 const KEPT: usize = 4;
 /// How many are kept where one side is edited.
@@ -161,6 +163,19 @@ impl<'s, 'b> Row<'s, 'b> {
         }
     }
 
+    /// Where a side makes no sense as printed: enters second edits on top of the likeliest that make sense of it.
+    pub fn enter_on_sense(&mut self, changes: &[Change]) {
+        for side in (0..self.sides.len()).filter(|k| self.sides[*k].values.is_none()).collect::<Vec<_>>() {
+            let sensible = self.variants.iter().filter(|v| v.side == side);
+            let mut sensible: Vec<Change> = sensible.map(|v| v.change.clone()).collect();
+            sensible.sort_by_key(|c| c.cost);
+            for first in sensible.into_iter().take(MAKING_SENSE) {
+                let both = changes.iter().filter_map(|second| joint(&first, second));
+                self.enter(&both.collect::<Vec<_>>());
+            }
+        }
+    }
+
     /// The one side that a change lies in.
     fn side_of(&self, change: &Change) -> Option<usize> {
         let within = |s: &Printed, p: &Path| s.path.as_ref().is_some_and(|prefix| p.starts_with(prefix));
@@ -213,26 +228,34 @@ impl<'s, 'b> Row<'s, 'b> {
             for wanted in self.solved(side, node, &slot.path, values, &targets, &doubled(&old)) {
                 // Twice the node is the node and once the unit, which is the node itself.
                 let factor = wanted.map(|x| 1.0 + x);
-                for filling in lexicon.products(&factor).into_iter().take(KEPT).filter(|f| !f.is_one()) {
+                for filling in lexicon.fillings(&factor).into_iter().take(KEPT).filter(|f| !f.is_one()) {
                     let new = signed(filling.negative, filling.applied(&old));
                     let sign = if filling.negative { "-" } else { "" };
                     let text =
                         format!("the factor `{sign}{}` put before `{}`", to_latex(&filling.node()), to_latex(&old));
-                    found.push((new, text, factor_cost(&filling) + u32::from(filling.negative)));
+                    let subject = if slot.path.is_empty() && is_name(&old) { likeness::SUBJECT } else { 0 };
+                    found.push((new, text, filling.factor_cost() + subject));
                 }
             }
+            let one = Node::new(Kind::Number("1".into()), old.span.clone());
+            let mut terms: Vec<(bool, Node, u32)> = Vec::new();
             if slot.sum {
-                let one = Node::new(Kind::Number("1".into()), old.span.clone());
                 for wanted in self.solved(side, node, &slot.path, values, &targets, &plus(&old, false, &one)) {
-                    let made = lexicon.products(&wanted).into_iter().take(KEPT);
-                    let made = made.map(|f| (f.negative, f.node(), likeness::MADE_UP + f.length));
-                    let near = lexicon.terms(&wanted).into_iter().take(KEPT).map(|(n, t)| (n, t, likeness::TERM));
-                    for (negative, term, cost) in near.chain(made) {
-                        let sign = if negative { "-" } else { "+" };
-                        let text = format!("the term `{sign} {}` added to `{}`", to_latex(&term), to_latex(&old));
-                        found.push((plus(&old, negative, &term), text, cost));
-                    }
+                    let fillings = lexicon.fillings(&wanted).into_iter().take(KEPT);
+                    terms.extend(fillings.map(|f| (f.negative, f.node(), f.term_cost())));
                 }
+            }
+            if slot.path.is_empty() && values.len() > STATES {
+                for target in &targets {
+                    let wanted: Vec<f64> = target.iter().zip(values).map(|(t, v)| t - v).collect();
+                    let arrows = lexicon.arrows(&wanted).into_iter().take(KEPT);
+                    terms.extend(arrows.map(|(f, v)| (f.negative, f.applied(&v), f.term_cost())));
+                }
+            }
+            for (negative, term, cost) in terms {
+                let sign = if negative { "-" } else { "+" };
+                let text = format!("the term `{sign} {}` added to `{}`", to_latex(&term), to_latex(&old));
+                found.push((plus(&old, negative, &term), text, cost));
             }
             for (new, text, cost) in found {
                 let whole = replaced_at(node, &slot.path, &new);
@@ -437,6 +460,10 @@ fn find(tree: &Node, node: &Node, taken: &mut Vec<Path>) -> Option<Path> {
         taken.push(path.clone());
         path
     })
+}
+
+fn is_name(node: &Node) -> bool {
+    matches!(node.kind, Kind::Symbol(_) | Kind::Styled(..) | Kind::Accent(..) | Kind::Dots(..) | Kind::Scripts { .. })
 }
 
 fn doubled(node: &Node) -> Node {

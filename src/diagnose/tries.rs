@@ -13,7 +13,7 @@ use super::names::Name;
 use super::near::Near;
 
 /// How many formulas are tried in all.
-const BUDGET: usize = 2500;
+const BUDGET: usize = 1200;
 /// How many edits that mend links one by one are made.
 const DEPTH: usize = 3;
 /// The cost up to which an edit is likely enough for pairs to be tried.

@@ -18,7 +18,7 @@ const PRODUCTS: usize = 24;
 
 /// All such edits of a formula.
 pub fn wider(tree: &Node, scope: &Scope, near: &Near) -> Vec<Found> {
-    let mut walk = Wider { scope, near, path: Vec::new(), found: Vec::new() };
+    let mut walk = Wider { scope, near, path: Vec::new(), alone: true, found: Vec::new() };
     walk.visit(tree);
     walk.found
 }
@@ -27,6 +27,8 @@ struct Wider<'s> {
     scope: &'s Scope,
     near: &'s Near,
     path: Path,
+    /// Whether the node at hand is a side of a relation.
+    alone: bool,
     found: Vec<Found>,
 }
 
@@ -39,8 +41,11 @@ impl Wider<'_> {
     fn visit(&mut self, node: &Node) {
         if let Some(name) = Name::of(self.scope, node) {
             self.indices(node, &name);
-            self.definitions(node, &name);
-            self.products(node, &name);
+            // A side that is a symbol alone would only be made equal to itself.
+            if !self.alone {
+                self.definitions(node, &name);
+                self.products(node, &name);
+            }
             return;
         }
         match &node.kind {
@@ -57,6 +62,7 @@ impl Wider<'_> {
         }
         for (k, child) in node.children().into_iter().enumerate() {
             self.path.push(k);
+            self.alone = matches!(node.kind, Kind::Chain { .. });
             self.visit(child);
             self.path.pop();
         }
