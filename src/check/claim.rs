@@ -84,6 +84,15 @@ pub enum Obstacle {
     Premise(String, String, Span),
 }
 
+/// Which premises a claim keeps.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Related {
+    /// Those that have to do with what is claimed.
+    Only,
+    /// All.
+    All,
+}
+
 /// What a claim is made from.
 #[derive(Clone, Copy)]
 pub struct Source<'b> {
@@ -114,12 +123,30 @@ impl<'b> Source<'b> {
 
     /// Builds the claim of a clause of the equation. `known` are clauses of the same equation that are definitions.
     pub fn claim(&self, clause: &Clause, scope: &Scope, known: &[Clause]) -> Result<Claim, Obstacle> {
+        self.claim_of(std::slice::from_ref(clause), scope, known, Related::Only)
+    }
+
+    /// Builds one claim of several clauses with one relation; a ± may stand in the first alone.
+    pub(super) fn claim_of(
+        &self,
+        clauses: &[Clause],
+        scope: &Scope,
+        known: &[Clause],
+        related: Related,
+    ) -> Result<Claim, Obstacle> {
+        let [clause, more @ ..] = clauses else {
+            return Err(Obstacle::Link(Error::unsupported("nothing is printed here", &(0..0))));
+        };
         let mut world = World::new();
         // A premise from another section that speaks of the same basis means this one.
         Elaborator::new(&mut world, scope, Vec::new(), true).build_bases();
         let typed = self.branches(&mut world, scope, clause).map_err(Obstacle::Link)?;
         let constant = clause.rhs == Side::Constant;
         let mut branches: Vec<Branch> = typed.iter().map(|link| pairs(&mut world, link, constant)).collect();
+        for clause in more {
+            let link = semantics::understand(&mut world, scope, clause, true).map_err(Obstacle::Link)?;
+            branches[0].extend(pairs(&mut world, &link, clause.rhs == Side::Constant));
+        }
         let mut given = self.given(&mut world)?;
         for clause in known {
             self.add_clause(&mut world, self.scope(), clause, &mut given).map_err(Obstacle::Link)?;
@@ -147,7 +174,9 @@ impl<'b> Source<'b> {
         let bound: Vec<Expr> = ordered.iter().map(|(_, e)| *e).chain(premises.residuals.iter().copied()).collect();
         let bound = world.graph.symbols(&bound);
         let bound = bound.into_iter().map(|s| world.graph.info(s).base).collect();
-        premises.keep_related(&world.graph, &targets, mentioned);
+        if related == Related::Only {
+            premises.keep_related(&world.graph, &targets, mentioned);
+        }
         premises.close_in_time(&mut world.graph, &targets);
         let (lhs_text, rhs_text) = typed.first().map(|l| (l.lhs_text.clone(), l.rhs_text.clone())).unwrap_or_default();
         let rel = clause.rel;

@@ -160,6 +160,14 @@ pub(super) fn judge_version(book: &Book, index: usize, version: Version, options
     judge_statement(&Source::new(book, index, version), &statement, options)
 }
 
+/// Judges the links of another formula in the place of an equation; none where it cannot be taken apart.
+pub fn judge_tree(book: &Book, index: usize, tree: &Node, options: &Options) -> Vec<LinkJudgement> {
+    match book.statement_of(index, tree) {
+        Ok(statement) => judge_statement(&Source::new(book, index, Version::Printed), &statement, options).links,
+        Err(_) => Vec::new(),
+    }
+}
+
 /// Judges what an equation states, in the words of any version of it.
 pub(super) fn judge_statement(source: &Source, statement: &Statement, options: &Options) -> Outcome {
     let (book, index, version) = (source.book, source.index, source.version);

@@ -19,6 +19,7 @@ mod premises;
 mod random;
 mod sameness;
 mod sampling;
+mod screen;
 mod shrink;
 mod system;
 mod trial;
@@ -26,5 +27,7 @@ mod trouble;
 pub mod verdict;
 
 pub use book::{Book, Entry, Formula, Unclear, Version};
-pub use judge::{Options, blank, judge};
+pub use judge::{Options, blank, judge, judge_tree};
+pub use random::Random;
+pub use screen::{STATES, Screen, Sight};
 pub use trial::{Outcome, Trial};

@@ -135,6 +135,33 @@ impl<'b> Trial<'b> {
             .unwrap_or(Outcome::Holds)
     }
 
+    /// What becomes of the links of these numbers in a formula with as many links as the original, whatever the others
+    /// do: the worst of them.
+    pub fn outcome_at(&mut self, tree: &Node, links: &[usize]) -> Outcome {
+        let Ok(statement) = self.source.book.statement_of(self.source.index, tree) else { return Outcome::Unclear };
+        if self.solution || statement.clauses.len() != self.links.len() {
+            return Outcome::Unclear;
+        }
+        let mut confirm = Vec::new();
+        for k in links.iter().copied() {
+            if statement.clauses[k] == self.statement.clauses[k] {
+                if self.links[k].verdict > Verdict::Asymptotic {
+                    return Outcome::Fails;
+                }
+                continue;
+            }
+            match self.quick(k, &statement.clauses[k]) {
+                Quick::Agrees | Quick::Elsewhere => confirm.push(k),
+                Quick::Differs => return Outcome::Fails,
+                Quick::Error(_) => return Outcome::Unclear,
+            }
+        }
+        let outcomes: Vec<Outcome> = confirm.into_iter().map(|k| self.link_in_full(&statement, k)).collect();
+        let bad = outcomes.iter().find(|o| !matches!(o, Outcome::Holds | Outcome::Definition));
+        let definition = outcomes.iter().find(|o| **o == Outcome::Definition);
+        *bad.or(definition).unwrap_or(&Outcome::Holds)
+    }
+
     /// Whether a formula that holds says the same as the original, whatever the premises are: see [`sameness`].
     pub fn is_equivalent(&self, tree: &Node) -> bool {
         let Ok(statement) = self.source.book.statement_of(self.source.index, tree) else { return false };
@@ -142,7 +169,19 @@ impl<'b> Trial<'b> {
         if self.solution && !self.source.book.entries[self.source.index].list(|a| &a.general).is_empty() {
             return true;
         }
-        let (own, other) = (&self.statement.clauses, &statement.clauses);
+        self.same_clauses(&self.statement.clauses, &statement.clauses)
+    }
+
+    /// Whether two formulas in the place of the original say the same as each other.
+    pub fn say_the_same(&self, a: &Node, b: &Node) -> bool {
+        let clauses = |tree| self.source.book.statement_of(self.source.index, tree).map(|s| s.clauses);
+        match (clauses(a), clauses(b)) {
+            (Ok(a), Ok(b)) => self.same_clauses(&a, &b),
+            _ => false,
+        }
+    }
+
+    fn same_clauses(&self, own: &[Clause], other: &[Clause]) -> bool {
         self.all_same(own, other) || self.all_same(&sameness::split(own), &sameness::split(other))
     }
 
