@@ -1,9 +1,10 @@
 //! The judgement on an equation: each link of its chain is claimed, evaluated and decided; the worst decides.
 
 use std::collections::HashSet;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use crate::document::Problem;
+use crate::expr::Deadline;
 use crate::latex::ast::{Kind, Node, Rel};
 use crate::semantics::{self, Clause, ErrorKind, Scope, Side, Statement};
 
@@ -27,11 +28,14 @@ pub struct Options {
     pub precision: Option<u32>,
     /// Whether counterexamples are to be proved (feature `rug`).
     pub certify: bool,
+    /// The time that each stage may take for an equation: judging it, judging its correction, trying its mutants,
+    /// searching what was meant. `None` for no limit.
+    pub budget: Option<Duration>,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Options { seed: 1, states: 64, precision: None, certify: true }
+        Options { seed: 1, states: 64, precision: None, certify: true, budget: None }
     }
 }
 
@@ -92,6 +96,7 @@ pub fn blank(book: &Book, index: usize) -> Judgement {
         as_expected: false,
         sensitivity: None,
         suggestions: Vec::new(),
+        unfinished: None,
         micros: 0,
         problem: None,
     }
@@ -157,13 +162,15 @@ pub(super) fn judge_version(book: &Book, index: usize, version: Version, options
             return Outcome::without_links(verdict, reason, Some(trouble::unclear(entry, version, &unclear)));
         }
     };
-    judge_statement(&Source::new(book, index, version), &statement, options)
+    let source = Source::new(book, index, version).until(Deadline::after(options.budget));
+    judge_statement(&source, &statement, options)
 }
 
 /// Judges the links of another formula in the place of an equation; none where it cannot be taken apart.
 pub fn judge_tree(book: &Book, index: usize, tree: &Node, options: &Options) -> Vec<LinkJudgement> {
+    let source = Source::new(book, index, Version::Printed).until(Deadline::after(options.budget));
     match book.statement_of(index, tree) {
-        Ok(statement) => judge_statement(&Source::new(book, index, Version::Printed), &statement, options).links,
+        Ok(statement) => judge_statement(&source, &statement, options).links,
         Err(_) => Vec::new(),
     }
 }

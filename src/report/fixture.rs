@@ -65,6 +65,7 @@ pub(super) fn judgement(label: &str, kind: &str, link: LinkJudgement) -> Judgeme
         as_expected: true,
         sensitivity: None,
         suggestions: Vec::new(),
+        unfinished: None,
         micros: 118,
         problem: None,
     }

@@ -10,6 +10,9 @@ use super::scope::{Entry, EntryKind, Scope, pattern};
 use super::value::{self, Matrix, Value};
 use super::world::{Facts, Joint, Quantity, Role, World};
 
+/// The most that is told of how a value was read, in bytes: otherwise a sum of n terms takes n² to read.
+const LONGEST_TEXT: usize = 4000;
+
 /// A value with the way it was read, every operation in brackets.
 #[derive(Clone, Debug)]
 pub struct Typed {
@@ -21,7 +24,12 @@ pub struct Typed {
 
 impl Typed {
     pub(super) fn new(value: Value, text: impl Into<String>) -> Self {
-        Typed { value, text: text.into() }
+        let mut text = text.into();
+        if text.len() > LONGEST_TEXT {
+            text.truncate(text.floor_char_boundary(LONGEST_TEXT));
+            text.push('…');
+        }
+        Typed { value, text }
     }
 }
 
@@ -45,6 +53,7 @@ impl<'w> Elaborator<'w> {
 
     /// The value of an expression.
     pub fn value(&mut self, node: &Node) -> Result<Typed> {
+        self.world.step(&node.span)?;
         match &node.kind {
             Kind::Number(text) => self.number(text, &node.span),
             Kind::Symbol(_) | Kind::Styled(..) | Kind::Accent(..) | Kind::Scripts { .. } | Kind::Dots(..) => {
@@ -149,7 +158,9 @@ impl<'w> Elaborator<'w> {
                 let square = value::dot3(graph, v, v);
                 graph.sqrt(square)
             }
-            Value::Matrix(m) if m.rows == m.cols && m.rows <= 6 => value::determinant(graph, m),
+            Value::Matrix(m) if m.rows == m.cols && m.rows <= value::LARGEST_DETERMINANT => {
+                value::determinant(graph, m)
+            }
             other => return Err(Error::shape(format!("{} has no magnitude", other.shape()), span)),
         };
         Ok(Typed::new(Value::Scalar(e), format!("|{}|", inner.text)))
@@ -178,8 +189,8 @@ impl<'w> Elaborator<'w> {
         let matrix = Matrix { rows: rows.len(), cols, data };
         let text = format!("[{}x{cols}: {}]", rows.len(), text.join(", "));
         if env == MatrixEnv::Determinant {
-            if matrix.rows != cols || cols > 6 {
-                return Err(Error::shape("a determinant needs as many rows as columns, at most 6", span));
+            if matrix.rows != cols || cols > value::LARGEST_DETERMINANT {
+                return Err(Error::shape(value::DETERMINANTS, span));
             }
             let det = value::determinant(&mut self.world.graph, &matrix);
             return Ok(Typed::new(Value::Scalar(det), format!("det{text}")));

@@ -7,6 +7,7 @@ use super::super::sampling::Sampler;
 use super::super::verdict::{Judgement, LinkJudgement, Strength, Verdict};
 use super::super::{Book, Options, Version, judge};
 use super::*;
+use crate::expr::Deadline;
 
 const SYMBOLS: &str = r"<!-- kenzan
 [symbols]
