@@ -116,8 +116,9 @@ fn precision(text: &str) -> Result<u32, String> {
 
 impl Sampling {
     fn options(&self) -> Options {
+        let (seed, states, precision) = (self.seed, self.states as usize, self.precision);
         let budget = Some(Duration::from_secs(self.budget.into()));
-        Options { seed: self.seed, states: self.states as usize, precision: self.precision, budget }
+        Options { seed, states, precision, budget, ..Options::default() }
     }
 }
 

@@ -92,6 +92,14 @@ fn verdict(out: &mut String, judgement: &Judgement) -> std::fmt::Result {
         if let Some(why) = &link.inexact {
             writeln!(out, "    not exact: {why}")?;
         }
+        if let Some(counterexample) = &link.counterexample {
+            if let Some(certificate) = &counterexample.certificate {
+                writeln!(out, "    certified: {certificate}")?;
+            }
+            if let Some(why) = &counterexample.uncertified {
+                writeln!(out, "    not certified: {why}")?;
+            }
+        }
         if let Some(order) = &link.order {
             writeln!(out, "    order in {}: {:.3} measured, {} claimed", order.small, order.measured, order.claimed)?;
         }

@@ -96,7 +96,8 @@ fn nesting() {
         answered(name, &deep(2000), "100");
         answered(&format!("{name}_deep"), &deep(100_000), "bytes; at most 65536 are read");
     }
-    let toml = format!("{}<!-- kenzan\ngiven = {}{}\n-->\n", display("a = 2 a"), "[".repeat(100_000), "]".repeat(100_000));
+    let toml =
+        format!("{}<!-- kenzan\ngiven = {}{}\n-->\n", display("a = 2 a"), "[".repeat(100_000), "]".repeat(100_000));
     assert!(said("toml", &toml, &[]).contains("not valid TOML"));
 }
 
@@ -184,11 +185,17 @@ fn sums() {
     let too_large = "written out, this has more than";
     answered("sum", &display(r"a = \sum_{i=1}^{1000000000} i"), too_many);
     answered("sum_i64", &display(r"a = \sum_{i=-9223372036854775807}^{9223372036854775807} i"), too_many);
-    let nested = |body: &str| display(&format!(r"a = \sum_{{i=1}}^{{10000}} \sum_{{j=1}}^{{10000}} \sum_{{k=1}}^{{10000}} {body}"));
+    let nested = |body: &str| {
+        display(&format!(r"a = \sum_{{i=1}}^{{10000}} \sum_{{j=1}}^{{10000}} \sum_{{k=1}}^{{10000}} {body}"))
+    };
     answered("nested", &nested("1"), too_large);
     answered("nested_symbols", &nested("x^i y^j b^k"), too_large);
     answered("products", &display(r"a = \prod_{i=1}^{10000} \prod_{j=1}^{10000} (x + i j)"), too_large);
-    answered("each", &declared("'n' = { index = [1, 1000000000] }\n'm_n' = { each = 'n' }", r"\sum_n m_n = a"), too_many);
+    answered(
+        "each",
+        &declared("'n' = { index = [1, 1000000000] }\n'm_n' = { each = 'n' }", r"\sum_n m_n = a"),
+        too_many,
+    );
     answered("instances", &declared("'n, p, q' = { index = [-1000000000, 1000000000] }", "n p q = a"), too_many);
     let operators = r"\frac{d^{12}}{dx^{12}} ".repeat(10);
     answered("derivatives", &display(&format!(r"{operators} \left(\sin(\cos(x^2))\right) = a")), "used up");
@@ -203,14 +210,17 @@ fn matrices() {
     answered("powers", &declared("'M' = { matrix = [31, 31] }", &format!("M = {}", "M ".repeat(500))), "written out");
     answered("determinant", &declared("'M' = { matrix = [31, 31] }", r"\det M = 1"), "at most 6");
     answered("header", &display(r"\begin{array}{*{1000000}{c}} a & b \end{array} = a"), "do not meet");
-    answered("cells", &display(&format!(r"\begin{{pmatrix}} {} \end{{pmatrix}} = a", "&".repeat(60_000))), "missing here");
+    answered(
+        "cells",
+        &display(&format!(r"\begin{{pmatrix}} {} \end{{pmatrix}} = a", "&".repeat(60_000))),
+        "missing here",
+    );
 }
 
 #[test]
 fn symbols_and_premises() {
-    let symbols = |count: usize| -> String {
-        (0..count).map(|n| format!("'s_{{{n}}}' = {{ range = [1, 2] }}\n")).collect()
-    };
+    let symbols =
+        |count: usize| -> String { (0..count).map(|n| format!("'s_{{{n}}}' = {{ range = [1, 2] }}\n")).collect() };
     answered("symbols", &declared(&symbols(100_000), "s_{5} + a = a"), "fails");
     let premises = |count: usize, f: fn(usize) -> String| -> Vec<String> { (0..count).map(f).collect() };
     let definitions = premises(10_000, |n| format!("'s_{{{}}} = s_{{{n}}} + 1'", n + 1));

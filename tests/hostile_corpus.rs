@@ -40,5 +40,10 @@ fn latex() {
 #[test]
 fn pipeline() {
     // As much stack as the command's threads have.
-    std::thread::Builder::new().stack_size(32 << 20).spawn(|| all("pipeline", survive::pipeline)).unwrap().join().unwrap();
+    std::thread::Builder::new()
+        .stack_size(32 << 20)
+        .spawn(|| all("pipeline", survive::pipeline))
+        .unwrap()
+        .join()
+        .unwrap();
 }

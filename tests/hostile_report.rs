@@ -132,7 +132,8 @@ fn defect(element: &scraper::node::Element) -> Option<String> {
         let known = ATTRIBUTES.split_whitespace().any(|a| a == key) || drawn && !key.contains(':');
         let runs = key.starts_with("on") || key == "src" || key == "srcdoc" || key == "action" || key == "xlink:href";
         let leads_away = key == "href" && !value.starts_with('#');
-        let loads = value.contains("url(") || value.to_lowercase().contains("javascript:") && key != "id" && key != "content";
+        let loads =
+            value.contains("url(") || value.to_lowercase().contains("javascript:") && key != "id" && key != "content";
         let styled = key == "style" && !value.starts_with("flex-grow:");
         if !known || runs || leads_away || loads || styled {
             return Some(format!("<{name} {key}=\"{value}\">"));
@@ -170,7 +171,8 @@ fn an_html_parser_sees_nothing_that_runs_links_or_loads() {
 #[test]
 fn the_data_are_json_and_in_no_page() {
     let run = run();
-    let data: serde_json::Value = serde_json::from_str(&json::render(&run, report::Options::default()).unwrap()).unwrap();
+    let data: serde_json::Value =
+        serde_json::from_str(&json::render(&run, report::Options::default()).unwrap()).unwrap();
     let latex = data["documents"][0]["equations"][0]["latex"].as_str().unwrap();
     assert!(latex.contains(PAYLOADS[0]), "{latex}");
     assert!(!html::render(&run, report::Options::default()).unwrap().contains("\"documents\""));
@@ -210,7 +212,9 @@ fn title(dom: &str) -> &str {
 fn a_browser_runs_nothing() {
     let control = "<!doctype html><title>before</title><body><script>document.title=\"owned\"</script>";
     let Some(browser) = browser() else { return println!("skipped: no browser was found") };
-    let Some(dom) = rendered(&browser, "control", control) else { return println!("skipped: the browser does not start") };
+    let Some(dom) = rendered(&browser, "control", control) else {
+        return println!("skipped: the browser does not start");
+    };
     assert_eq!(title(&dom), "owned", "the browser runs scripts");
     let page = html::render(&run(), report::Options { times: false }).unwrap();
     // The browser writes the same text with fewer escapes, and NUL as a sign for what it cannot read.

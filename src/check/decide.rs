@@ -7,7 +7,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::expr::{SymId, Workspace};
+use crate::expr::{SymId, Tape, Workspace};
 use crate::latex::ast::Rel;
 use crate::number::{Df64, Number, Real};
 
@@ -108,18 +108,16 @@ fn refined(judgement: LinkJudgement, sampler: &Sampler, states: &[State], option
     {
         use crate::number::Mpfr;
         if let Some(bits) = options.precision {
-            return decide::<Mpfr>(judgement, sampler, states, &bits);
+            return decide::<Mpfr>(judgement, sampler, states, &bits, options);
         }
-        let first = decide::<Df64>(judgement.clone(), sampler, states, &());
+        let first = decide::<Df64>(judgement.clone(), sampler, states, &(), options);
         if first.verdict == Verdict::Undecided {
-            return decide::<Mpfr>(judgement, sampler, states, &256);
+            return decide::<Mpfr>(judgement, sampler, states, &256, options);
         }
         first
     }
     #[cfg(not(feature = "rug"))]
-    let _ = options;
-    #[cfg(not(feature = "rug"))]
-    decide::<Df64>(judgement, sampler, states, &())
+    decide::<Df64>(judgement, sampler, states, &(), options)
 }
 
 fn decide<N: Real>(
@@ -127,6 +125,7 @@ fn decide<N: Real>(
     sampler: &Sampler,
     states: &[State],
     cx: &N::Context,
+    options: &Options,
 ) -> LinkJudgement {
     let mut tally = Tally { branch_hit: vec![false; sampler.claim.branches.len()], ..Tally::default() };
     let mut work = Workspace::default();
@@ -150,6 +149,7 @@ fn decide<N: Real>(
         if let Some(branches) = sampler.evaluate::<N>(&small.state, cx, &mut work) {
             let (value, pair) = (&branches[0][pair], &sampler.claim.branches[0][pair]);
             judgement.counterexample = Some(sampler.counterexample(&small.state, cx, pair, value, &small.idle));
+            proof(&mut judgement, sampler, &small.state, None, &small.idle, options);
         }
     } else if deadline.has_passed() {
         judgement.reason = Some(deadline.used_up("evaluating both sides"));
@@ -171,6 +171,28 @@ fn decide<N: Real>(
         }
     }
     judgement
+}
+
+/// A proof that a claim fails at the state of its counterexample. `condition` is what an inequality is to be equivalent to.
+fn proof(
+    judgement: &mut LinkJudgement,
+    sampler: &Sampler,
+    state: &State,
+    condition: Option<(Rel, &Tape)>,
+    idle: &[SymId],
+    options: &Options,
+) {
+    #[cfg(feature = "rug")]
+    if options.certify {
+        use super::certify::{Claimed, certify};
+        let claimed = match sampler.claim.rel {
+            rel @ (Rel::Lt | Rel::Le | Rel::Gt | Rel::Ge) => Claimed::Ordered(rel, condition),
+            _ => Claimed::Equal,
+        };
+        certify(judgement, sampler, state, &claimed, idle);
+    }
+    #[cfg(not(feature = "rug"))]
+    let _ = (judgement, sampler, state, condition, idle, options);
 }
 
 impl Tally {
@@ -216,7 +238,7 @@ pub fn inequality(mut judgement: LinkJudgement, mut claim: Claim, name: &str, op
     let mut random = Random::new(options.seed, name);
     let condition = claim.condition.map(|(rel, a, b)| (rel, claim.world.graph.sub(a, b)));
     let extra: Vec<_> = condition.iter().map(|(_, e)| *e).collect();
-    let tape = crate::expr::Tape::compile(&claim.world.graph, &extra);
+    let tape = Tape::compile(&claim.world.graph, &extra);
     let sampled = Sampler::new(&mut claim, &mut random, &extra).and_then(|sampler| {
         // An inequality wants more states: it is its border that matters.
         let states = sampler.states(4 * options.states, &mut random, &BTreeMap::new())?;
@@ -229,6 +251,7 @@ pub fn inequality(mut judgement: LinkJudgement, mut claim: Claim, name: &str, op
     let mut work = Workspace::default();
     let mut condition_work = Workspace::default();
     let mut seen = [0usize; 2];
+    let mut example = None;
     let deadline = sampler.deadline();
     for state in &states {
         if deadline.has_passed() {
@@ -254,6 +277,7 @@ pub fn inequality(mut judgement: LinkJudgement, mut claim: Claim, name: &str, op
                 if judgement.counterexample.is_none() {
                     let pair = &sampler.claim.branches[0][pair];
                     judgement.counterexample = Some(sampler.counterexample(state, &(), pair, value, &[]));
+                    example = Some(state);
                 }
             }
         }
@@ -272,6 +296,10 @@ pub fn inequality(mut judgement: LinkJudgement, mut claim: Claim, name: &str, op
     } else if judgement.failing_states > 0 && condition.is_some() {
         judgement.reason = Some("the inequality and the condition are not equivalent".into());
     }
+    if let (Verdict::Fails, Some(state)) = (judgement.verdict, example) {
+        let condition = condition.as_ref().map(|(rel, _)| (*rel, &tape));
+        proof(&mut judgement, &sampler, state, condition, &[], options);
+    }
     judgement
 }
 
@@ -288,7 +316,7 @@ fn sign<N: Real>(value: &crate::number::Tracked<N>) -> Option<i32> {
     }
 }
 
-fn satisfies(rel: Rel, sign: i32) -> bool {
+pub(super) fn satisfies(rel: Rel, sign: i32) -> bool {
     match rel {
         Rel::Lt => sign < 0,
         Rel::Le => sign <= 0,

@@ -4,6 +4,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use crate::expr::{Deadline, Expr, Node, SymId, Tape, Workspace};
+use crate::latex::ast::Rel;
 use crate::number::{Number, Real, Tracked};
 
 use super::claim::{Claim, Pair};
@@ -46,11 +47,13 @@ pub struct Sampler<'c> {
     /// Its premises compiled.
     pub system: System,
     /// For each pair of each branch: residual, lhs, rhs, sum of magnitudes.
-    tape: Tape,
+    pub(super) tape: Tape,
     /// The pairs' numbers by branch.
     branches: Vec<usize>,
     /// Starts for unknowns that one side gives: the unknown's place and the tape of the other side.
     hints: Vec<(usize, Tape)>,
+    /// What must be greater or less than zero.
+    ordered: Tape,
 }
 
 impl<'c> Sampler<'c> {
@@ -63,6 +66,8 @@ impl<'c> Sampler<'c> {
         }
         let mut targets = outputs.clone();
         targets.extend(extra);
+        let ordered = restricting(claim, &targets);
+        targets.extend(&ordered);
         let kept: BTreeSet<SymId> = claim.small.iter().map(|(s, _)| *s).collect();
         let wish = Wish { solve: &claim.solve, free: &kept };
         let residuals = claim.premises.residuals.clone();
@@ -71,7 +76,8 @@ impl<'c> Sampler<'c> {
         let hints = hints(claim, &system);
         let tape = Tape::compile(&claim.world.graph, &outputs);
         let branches = claim.branches.iter().map(Vec::len).collect();
-        Ok(Sampler { claim, system, tape, branches, hints })
+        let ordered = Tape::compile(&claim.world.graph, &ordered);
+        Ok(Sampler { claim, system, tape, branches, hints, ordered })
     }
 
     /// When the time is used up.
@@ -97,11 +103,11 @@ impl<'c> Sampler<'c> {
                 }
                 let (mut state, start) = self.system.draw(random, hard, fixed);
                 match self.system.solve(&mut state, &start) {
-                    Ok(()) if self.is_defined(&state) => {
+                    Ok(()) if self.is_defined(&state) && self.is_allowed(&state) => {
                         states.push(state);
                         break;
                     }
-                    Ok(()) => {}
+                    Ok(()) => last = NoState::Diverges,
                     Err(e) => last = e,
                 }
             }
@@ -123,6 +129,12 @@ impl<'c> Sampler<'c> {
             }
         }
         start
+    }
+
+    /// Whether the premises that say what is greater hold at a state.
+    pub fn is_allowed(&self, state: &State) -> bool {
+        let inputs: Vec<f64> = self.ordered.inputs().iter().map(|s| state.values[s.index()]).collect();
+        self.ordered.eval(&inputs, &(), &mut Workspace::default()).iter().all(|x| *x > 0.0)
     }
 
     /// Whether all sides are numbers at a state; where no state is, the judgement says so.
@@ -183,8 +195,22 @@ impl<'c> Sampler<'c> {
             lhs: shown(&value.lhs, 12),
             rhs: shown(&value.rhs, 12),
             component: pair.name.clone(),
+            certificate: None,
+            uncertified: None,
         }
     }
+}
+
+/// What must be positive at a state, by the premises that say what is greater and speak of the claim's symbols. The
+/// border, where both sides are equal, is left out: it has no states to speak of.
+fn restricting(claim: &mut Claim, targets: &[Expr]) -> Vec<Expr> {
+    let graph = &mut claim.world.graph;
+    let all: Vec<Expr> = targets.iter().chain(&claim.premises.residuals).copied().collect();
+    let known = graph.symbols(&all);
+    let related: Vec<_> =
+        claim.ordered.iter().filter(|(_, e)| !graph.symbols(&[*e]).is_disjoint(&known)).copied().collect();
+    let positive = |(rel, e)| if matches!(rel, Rel::Lt | Rel::Le) { graph.neg(e) } else { e };
+    related.into_iter().map(positive).collect()
 }
 
 /// A value in decimal; what cannot be told from zero is shown as zero.

@@ -26,12 +26,13 @@ pub struct System {
     /// The symbols that are solved for.
     pub unknowns: Vec<Source>,
     /// The independent residuals.
-    values: Tape,
+    pub(super) values: Tape,
     /// Their Jacobian by the unknowns, row by row.
-    jacobian: Tape,
+    pub(super) jacobian: Tape,
     /// The residuals that depend on the others, each with the sum of the magnitudes of its terms.
-    rest: Tape,
-    symbols: usize,
+    pub(super) rest: Tape,
+    /// The number of symbols, those of the premises and of what is evaluated among them.
+    pub(super) symbols: usize,
 }
 
 /// Where a symbol's values come from.

@@ -71,7 +71,8 @@ impl Problem {
             Severity::Error => miette::Severity::Error,
             Severity::Warning => miette::Severity::Warning,
         };
-        let mut diagnostic = MietteDiagnostic::new(harmless(&self.message)).with_code(self.code).with_severity(severity);
+        let mut diagnostic =
+            MietteDiagnostic::new(harmless(&self.message)).with_code(self.code).with_severity(severity);
         if let Some(help) = &self.help {
             diagnostic = diagnostic.with_help(harmless(help));
         }

@@ -285,7 +285,8 @@ impl Reader<'_> {
         if shape[0] * shape[1] > MOST_ENTRIES {
             let message = format!("a matrix of {} entries; at most {MOST_ENTRIES} are read", shape[0] * shape[1]);
             let problem = Problem::error("document::matrix", message, value.span.clone());
-            self.problems.push(problem.label("each entry is a symbol of its own").help("a handful shows what any number does"));
+            self.problems
+                .push(problem.label("each entry is a symbol of its own").help("a handful shows what any number does"));
             return None;
         }
         Some(shape.map(|size| size as usize))

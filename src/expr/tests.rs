@@ -1,8 +1,8 @@
 //! Tests of the graph: constructors, decimals, symbols, rewriting, and what must not overflow.
 
 use super::*;
-use std::time::Duration;
 use std::collections::HashMap;
+use std::time::Duration;
 
 fn xy(g: &mut Graph) -> (Expr, Expr) {
     let (x, y) = (g.symbol("x"), g.symbol("y"));

@@ -79,6 +79,8 @@ fn erratum() -> Judgement {
         lhs: "-0.5".into(),
         rhs: "-0.32210884361884557".into(),
         component: Some(r"\xi component".into()),
+        certificate: None,
+        uncertified: None,
     };
     let failing = LinkJudgement {
         strength: Some(Strength::Certified),

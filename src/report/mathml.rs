@@ -41,15 +41,59 @@ pub(super) fn canonical(markup: &str) -> Option<String> {
 
 /// The elements that pass.
 const ELEMENTS: [&str; 23] = [
-    "math", "menclose", "mfrac", "mi", "mn", "mo", "mover", "mpadded", "mphantom", "mroot", "mrow", "mspace", "msqrt",
-    "mstyle", "msub", "msubsup", "msup", "mtable", "mtd", "mtext", "mtr", "munder", "munderover",
+    "math",
+    "menclose",
+    "mfrac",
+    "mi",
+    "mn",
+    "mo",
+    "mover",
+    "mpadded",
+    "mphantom",
+    "mroot",
+    "mrow",
+    "mspace",
+    "msqrt",
+    "mstyle",
+    "msub",
+    "msubsup",
+    "msup",
+    "mtable",
+    "mtd",
+    "mtext",
+    "mtr",
+    "munder",
+    "munderover",
 ];
 
 /// The attributes that pass, where they are words, numbers, lengths or colours.
 const ATTRIBUTES: [&str; 26] = [
-    "accent", "accentunder", "columnlines", "depth", "display", "displaystyle", "fence", "form", "height", "linethickness",
-    "lspace", "mathbackground", "mathcolor", "mathsize", "mathvariant", "maxsize", "minsize", "movablelimits", "notation",
-    "rowlines", "rspace", "scriptlevel", "separator", "stretchy", "voffset", "width",
+    "accent",
+    "accentunder",
+    "columnlines",
+    "depth",
+    "display",
+    "displaystyle",
+    "fence",
+    "form",
+    "height",
+    "linethickness",
+    "lspace",
+    "mathbackground",
+    "mathcolor",
+    "mathsize",
+    "mathvariant",
+    "maxsize",
+    "minsize",
+    "movablelimits",
+    "notation",
+    "rowlines",
+    "rspace",
+    "scriptlevel",
+    "separator",
+    "stretchy",
+    "voffset",
+    "width",
 ];
 
 /// Whether an attribute passes.
@@ -220,13 +264,17 @@ mod tests {
     #[test]
     fn attributes_are_sorted_and_sources_dropped() {
         let markup = r#"<span><math xmlns="x" display="block"><semantics><mo stretchy="false" fence="true">+</mo><annotation encoding="y">a&lt;b</annotation></semantics></math></span>"#;
-        assert_eq!(canonical(markup).unwrap(), r#"<math display="block"><mo fence="true" stretchy="false">+</mo></math>"#);
+        assert_eq!(
+            canonical(markup).unwrap(),
+            r#"<math display="block"><mo fence="true" stretchy="false">+</mo></math>"#
+        );
         assert_eq!(canonical("no mathematics"), None);
     }
 
     #[test]
     fn what_runs_links_or_loads_does_not_pass() {
-        let markup = r#"<math href="javascript:x" onclick="y" style="z"><mi mathcolor="url(x)" width="1em">a</mi></math>"#;
+        let markup =
+            r#"<math href="javascript:x" onclick="y" style="z"><mi mathcolor="url(x)" width="1em">a</mi></math>"#;
         assert_eq!(canonical(markup).unwrap(), r#"<math><mi width="1em">a</mi></math>"#);
         for element in ["script", "a", "mglyph", "maction", "annotation-xml", "img"] {
             assert_eq!(canonical(&format!("<math><{element}>x</{element}></math>")), None, "{element}");

@@ -13,6 +13,7 @@ mod svg;
 pub mod terminal;
 mod text;
 mod view;
+mod view_certificate;
 mod view_charts;
 mod view_diagnosis;
 mod view_dimensions;

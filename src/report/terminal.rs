@@ -39,6 +39,9 @@ fn summarize(text: &mut String, document: &DocumentReport, paint: Paint) -> std:
     if counts.holds > 0 {
         writeln!(text, "  exact: {} of {} that hold", counts.exact, counts.holds)?;
     }
+    if counts.certified > 0 {
+        writeln!(text, "  certified: {} of {} that fail", counts.certified, counts.fails)?;
+    }
     if let Some(dimensions) = dimensions(document) {
         writeln!(text, "  dimensions: {dimensions}")?;
     }
@@ -96,6 +99,9 @@ fn line(text: &mut String, document: &DocumentReport, j: &Judgement, paint: Pain
         writeln!(text, "      should read  {}  ({verdict})", one_line(&correction.latex))?;
     } else if let Some(c) = &j.counterexample {
         writeln!(text, "      for example  {}  against  {}", c.lhs, c.rhs)?;
+    }
+    if let Some(certificate) = j.counterexample.as_ref().and_then(|c| c.certificate.as_ref()) {
+        writeln!(text, "      certified: {}", one_line(&certificate.to_string()))?;
     }
     for finding in &j.dimension_findings {
         writeln!(text, "      dimensions: {}", one_line(&finding.message))?;

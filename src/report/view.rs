@@ -5,7 +5,7 @@
 
 use super::math::Renderer;
 use super::text::{duration, language, number, strength, symbol, word};
-use super::{Counts, Options, Run, diff, text, view_charts, view_diagnosis, view_dimensions};
+use super::{Counts, Options, Run, diff, text, view_certificate, view_charts, view_diagnosis, view_dimensions};
 use crate::check::verdict::{Correction, Counterexample, DocumentReport, Judgement, LinkJudgement, Order, Verdict};
 use serde::Serialize;
 use std::collections::HashMap;
@@ -117,6 +117,8 @@ struct CounterexampleView {
     state: Vec<Value>,
     lhs: String,
     rhs: String,
+    certificate: Option<view_certificate::View>,
+    uncertified: Option<String>,
 }
 
 #[derive(Clone, Serialize)]
@@ -315,6 +317,8 @@ impl Builder {
             state: c.state.iter().map(value).collect(),
             lhs: c.lhs.clone(),
             rhs: c.rhs.clone(),
+            certificate: c.certificate.as_ref().map(|c| view_certificate::view(c, &self.renderer)),
+            uncertified: c.uncertified.clone(),
         }
     }
 

@@ -6,6 +6,7 @@ use crate::expr::{Cut, Deadline, Expr, Graph, MOST_NODES, SymId};
 use crate::latex::ast::Span;
 
 use super::error::{Error, Result};
+use super::motion::History;
 use super::units::Dimension;
 use super::value::Value;
 
@@ -75,6 +76,7 @@ pub struct World {
     facts: HashMap<SymId, Facts>,
     triads: HashMap<String, [[Expr; 3]; 3]>,
     joints: Option<Vec<Joint>>,
+    pub(super) history: History,
     steps: usize,
 }
 
