@@ -22,7 +22,7 @@ use rug::{Float, Rational};
 
 use crate::expr::{SymId, Tape, Workspace};
 use crate::latex::ast::Rel;
-use crate::number::{Interval, Mpfr, Number};
+use crate::number::{Interval, Number};
 
 use super::decide::satisfies;
 use super::sampling::Sampler;
@@ -177,9 +177,9 @@ fn enclosed(sampler: &Sampler, state: &State, bits: u32) -> Result<Vec<Interval>
         at[source.symbol.index()] = Interval::from_ratio(value.num.into(), value.den.into(), &bits);
     }
     if !system.unknowns.is_empty() {
-        let near = system.refine::<Mpfr>(state, &bits).ok_or(Uncertified::Singular)?;
         let unknowns: Vec<SymId> = system.unknowns.iter().map(|u| u.symbol).collect();
-        let centre: Vec<Float> = unknowns.iter().map(|u| near[u.index()].value().0.clone()).collect();
+        // As near as doubles are: narrowing does the rest.
+        let centre: Vec<Float> = unknowns.iter().map(|u| Float::with_val(bits, state.values[u.index()])).collect();
         let equations = Equations { values: &system.values, jacobian: &system.jacobian, unknowns: &unknowns };
         equations.enclose(&mut at, &centre, bits)?;
     }

@@ -12,7 +12,7 @@ use super::claim::{Claim, Obstacle, Source, obstacle_text, unclear_text};
 use super::decide;
 use super::order;
 use super::trouble;
-use super::verdict::{Correction, DimensionStatus, Judgement, LinkJudgement, Strength, Verdict};
+use super::verdict::{Correction, DimensionStatus, Judgement, LinkJudgement, LostBits, Strength, Verdict};
 
 /// What the checker is asked for.
 #[derive(Clone, Debug)]
@@ -23,13 +23,14 @@ pub struct Options {
     pub states: usize,
     /// The precision in bits to decide in, where one is asked for (feature `rug`); otherwise double-double.
     pub precision: Option<u32>,
-    /// Whether counterexamples are to be proved (feature `rug`).
-    pub certify: bool,
+    /// Whether a judgement is to say more than its verdict rests on: certificates of counterexamples (feature `rug`), the
+    /// bits that doubles lose.
+    pub evidence: bool,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Options { seed: 1, states: 64, precision: None, certify: true }
+        Options { seed: 1, states: 64, precision: None, evidence: true }
     }
 }
 
@@ -90,6 +91,7 @@ pub fn blank(book: &Book, index: usize) -> Judgement {
         as_expected: false,
         sensitivity: None,
         suggestions: Vec::new(),
+        lost_bits: None,
         micros: 0,
         problem: None,
     }
@@ -283,6 +285,7 @@ fn unjudged(clause: &Clause) -> LinkJudgement {
         problem: None,
         exact: None,
         inexact: None,
+        lost_bits: None,
     }
 }
 
@@ -410,6 +413,12 @@ impl Judgement {
         self.strength = decisive.filter_map(|l| l.strength).max_by_key(|s| s.weakness());
         if self.links.iter().all(|l| l.verdict == Verdict::Definition) && !self.links.is_empty() {
             self.kind = "definition".into();
+        }
+        let lost: Vec<LostBits> = self.links.iter().filter_map(|l| l.lost_bits).collect();
+        if !lost.is_empty() {
+            let mean = lost.iter().map(|l| l.mean).sum::<f64>() / lost.len() as f64;
+            let worst = lost.iter().map(|l| l.worst).fold(0.0, f64::max);
+            self.lost_bits = Some(LostBits { mean: (10.0 * mean).round() / 10.0, worst });
         }
         if self.reason.is_none() {
             self.reason = self.links.iter().find(|l| l.verdict == self.verdict).and_then(|l| l.reason.clone());

@@ -11,6 +11,7 @@ mod elimination;
 pub mod exact;
 pub mod inspect;
 mod judge;
+mod lost;
 mod newton;
 mod order;
 mod premises;

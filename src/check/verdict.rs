@@ -221,6 +221,15 @@ pub struct InferredDimension {
     pub from: String,
 }
 
+/// The bits of a double that rounding in the formula costs, over the states.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct LostBits {
+    /// Their mean.
+    pub mean: f64,
+    /// Those at the worst state.
+    pub worst: f64,
+}
+
 /// The judgement on one link of a chain.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct LinkJudgement {
@@ -251,6 +260,8 @@ pub struct LinkJudgement {
     pub exact: Option<Exact>,
     /// Why an equality that holds has no exact verdict.
     pub inexact: Option<String>,
+    /// What the side that is worse in doubles loses, for an equality.
+    pub lost_bits: Option<LostBits>,
 }
 
 /// The formula that should have been printed, with the judgement on it.
@@ -346,6 +357,8 @@ pub struct Judgement {
     pub sensitivity: Option<Sensitivity>,
     /// What was probably meant, where the equation fails and suggestions were asked for; the likeliest first.
     pub suggestions: Vec<Suggestion>,
+    /// What doubles lose: the mean over the links, and the worst.
+    pub lost_bits: Option<LostBits>,
     /// The time it took, in microseconds.
     pub micros: u64,
     /// What stands in the way of a verdict, with its place in the file, where no link says it.

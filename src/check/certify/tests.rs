@@ -252,3 +252,16 @@ fn what_is_not_certified_says_why() {
     let why = certified("y = x", r"where = ['y^2 = e^x', 'y = e^{x/2}']").unwrap_err();
     assert!(why.contains("not proved to follow from the others"), "{why}");
 }
+
+/// Not a test of what is right: what certificates and lost bits cost.
+#[test]
+#[ignore = "measures time"]
+fn cost() {
+    let book = notes();
+    for evidence in [false, true, false, true] {
+        let options = Options { evidence, ..Options::default() };
+        let begin = std::time::Instant::now();
+        (0..book.entries.len()).for_each(|k| drop(judge(&book, k, &options)));
+        eprintln!("evidence: {evidence}, {:?}", begin.elapsed());
+    }
+}
