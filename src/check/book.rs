@@ -3,7 +3,7 @@
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
-use crate::document::{Document, Equation, EquationAnnotation, Item, Problem, Spanned};
+use crate::document::{Document, Equation, EquationAnnotation, Item, LinkPremises, Problem, Spanned};
 use crate::latex::{self, ParseError, ast::Node};
 use crate::semantics::{self, Scope, Statement};
 
@@ -49,8 +49,9 @@ pub struct Entry {
     pub correction: Option<Formula>,
     /// The equation before it, which it continues if it begins with a relation.
     pub previous: Option<usize>,
-    /// The patterns of the declared symbols it mentions.
-    pub mentions: HashSet<String>,
+    /// The declared symbols it mentions: the pattern, and where it is declared, which tells apart the symbols of different
+    /// sections that are spelt alike.
+    pub mentions: HashMap<String, usize>,
 }
 
 impl Entry {
@@ -71,6 +72,27 @@ impl Entry {
     /// Its annotation's list under a key.
     pub fn list(&self, key: fn(&EquationAnnotation) -> &Vec<Spanned<String>>) -> &[Spanned<String>] {
         self.annotation().map_or(&[], |a| key(a))
+    }
+
+    /// The labels of the equations that a link (from 0) is judged on; without one, that any of its links is.
+    pub fn given(&self, link: Option<usize>) -> Vec<&Spanned<String>> {
+        self.of_links(link, |a| &a.given, |l| &l.given)
+    }
+
+    /// The premises of the prose that a link (from 0) is judged on; without one, that any of its links is.
+    pub fn wheres(&self, link: Option<usize>) -> Vec<&Spanned<String>> {
+        self.of_links(link, |a| &a.where_, |l| &l.where_)
+    }
+
+    fn of_links<'a>(
+        &'a self,
+        link: Option<usize>,
+        own: fn(&EquationAnnotation) -> &Vec<Spanned<String>>,
+        of_link: fn(&'a LinkPremises) -> &'a Vec<Spanned<String>>,
+    ) -> Vec<&'a Spanned<String>> {
+        let links = self.annotation().into_iter().flat_map(|a| &a.link);
+        let links = links.filter(|l| link.is_none_or(|k| k + 1 == l.number));
+        self.list(own).iter().chain(links.flat_map(of_link)).collect()
     }
 }
 
@@ -130,6 +152,7 @@ impl Book {
                 semantics::mentions(&scope, tree, &mut mentions);
             }
         }
+        let mentions = mentions.into_iter().filter_map(|m| scope.get(&m).map(|e| e.declared).map(|d| (m, d))).collect();
         self.labels.entry(equation.label.clone()).or_insert(self.entries.len());
         self.entries.push(Entry {
             equation: equation.clone(),
@@ -152,11 +175,12 @@ impl Book {
         Some((*self.labels.get(label)?, Some(part.parse().ok()?)))
     }
 
-    /// References to equations that do not exist, and `given`s that go in a circle.
+    /// References to equations and links that do not exist, and `given`s that go in a circle.
     fn check_references(&mut self) {
         let mut problems = Vec::new();
         for (index, entry) in self.entries.iter().enumerate() {
-            let references = entry.list(|a| &a.given).iter().chain(entry.list(|a| &a.solves));
+            problems.extend(self.missing_links(index));
+            let references = entry.given(None).into_iter().chain(entry.list(|a| &a.solves));
             for reference in references {
                 if self.find(&reference.value).is_none() {
                     let message = format!("there is no equation {}", reference.value);
@@ -168,7 +192,7 @@ impl Book {
             // Each circle is reported once, at its first equation.
             if let Some(circle) = self.circle(index)
                 && circle.iter().all(|label| self.labels.get(label).is_none_or(|k| *k >= index))
-                && let Some(first) = entry.list(|a| &a.given).first()
+                && let Some(first) = entry.given(None).first()
             {
                 let message = format!("the premises go in a circle: {}", circle.join(" → "));
                 problems.push(
@@ -180,6 +204,22 @@ impl Book {
         self.problems.extend(problems);
     }
 
+    /// Premises for links that an equation has not.
+    fn missing_links(&self, index: usize) -> Vec<Problem> {
+        let premises = self.entries[index].annotation().into_iter().flat_map(|a| &a.link);
+        let versions = [Version::Printed, Version::Corrected];
+        let counts = versions.iter().filter_map(|v| self.statement(index, *v).ok()).map(|s| s.clauses.len());
+        let Some(count) = counts.max() else { return Vec::new() };
+        let missing = premises.filter(|l| l.number > count);
+        missing
+            .map(|l| {
+                let message = format!("the equation has no link {}", l.number);
+                let help = format!("it has {count}: a = b = c has two, a = b and b = c");
+                Problem::error("kenzan::link", message, l.span.clone()).label("premises for it").help(help)
+            })
+            .collect()
+    }
+
     /// The circle of `given`s through an equation, by labels, if there is one.
     pub fn circle(&self, start: usize) -> Option<Vec<String>> {
         let label = |i: usize| self.entries[i].equation.label.clone();
@@ -187,7 +227,7 @@ impl Book {
         let mut stack = vec![vec![start]];
         while let Some(path) = stack.pop() {
             let at = path[path.len() - 1];
-            for given in self.entries[at].list(|a| &a.given) {
+            for given in self.entries[at].given(None) {
                 let Some((next, _)) = self.find(&given.value) else { continue };
                 if next == start {
                     return Some(path.iter().chain([&start]).map(|i| label(*i)).collect());
@@ -232,11 +272,16 @@ impl Book {
         statement.ok_or_else(|| Unclear::Meaning(semantics::Error::unsupported("nothing is printed here", &(0..0))))
     }
 
-    /// Whether a symbol is mentioned by an equation before this one that does not rest on this one.
+    /// Whether a symbol is mentioned by an equation before this one that does not rest on this one, or by one that this
+    /// one rests on.
     pub fn mentioned_before(&self, index: usize, pattern: &str) -> bool {
-        let rests =
-            |e: &Entry| e.list(|a| &a.given).iter().any(|g| self.find(&g.value).is_some_and(|(k, _)| k == index));
-        self.entries[..index].iter().any(|e| e.mentions.contains(pattern) && !rests(e))
+        let declared = self.entries[index].scope.get(pattern).map(|e| e.declared);
+        let given = |e: &Entry| -> Vec<usize> {
+            e.given(None).iter().filter_map(|g| self.find(&g.value)).map(|(k, _)| k).collect()
+        };
+        let rests = |e: &Entry| given(e).contains(&index);
+        self.entries[..index].iter().any(|e| e.mentions.get(pattern).copied() == declared && !rests(e))
+            || given(&self.entries[index]).iter().any(|k| self.entries[*k].mentions.contains_key(pattern))
     }
 }
 

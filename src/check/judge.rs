@@ -5,11 +5,13 @@ use std::time::Instant;
 
 use crate::document::Problem;
 use crate::latex::ast::{Kind, Node, Rel};
-use crate::semantics::{Clause, ErrorKind, Scope, Side, Statement};
+use crate::semantics::{self, Clause, ErrorKind, Scope, Side, Statement};
 
 use super::book::{Book, Entry, Formula, Unclear, Version};
 use super::claim::{Claim, Obstacle, Source, obstacle_text, unclear_text};
 use super::decide;
+use super::general;
+use super::law;
 use super::order;
 use super::trouble;
 use super::verdict::{Correction, DimensionStatus, Judgement, LinkJudgement, LostBits, Strength, Verdict};
@@ -78,8 +80,8 @@ pub fn blank(book: &Book, index: usize) -> Judgement {
         states: 0,
         as_printed: entry.reading.is_none(),
         reading: entry.reading.as_ref().map(|f| f.latex.clone()),
-        given: entry.list(|a| &a.given).iter().chain(entry.list(|a| &a.solves)).map(|g| g.value.clone()).collect(),
-        assumptions: entry.list(|a| &a.where_).iter().map(|p| p.value.clone()).collect(),
+        given: entry.given(None).into_iter().chain(entry.list(|a| &a.solves)).map(|g| g.value.clone()).collect(),
+        assumptions: entry.wheres(None).iter().map(|p| p.value.clone()).collect(),
         because: annotation.and_then(|a| a.because.clone()),
         reason: None,
         links: Vec::new(),
@@ -157,7 +159,16 @@ pub(super) fn judge_version(book: &Book, index: usize, version: Version, options
             return Outcome::without_links(verdict, reason, Some(trouble::unclear(entry, version, &unclear)));
         }
     };
-    judge_statement(&Source { book, index, version }, &statement, options)
+    judge_statement(&Source::new(book, index, version), &statement, options)
+}
+
+/// Judges the links of another formula in the place of an equation; none where it cannot be taken apart.
+pub fn judge_tree(book: &Book, index: usize, tree: &Node, options: &Options) -> Vec<LinkJudgement> {
+    let options = Options { evidence: false, ..options.clone() };
+    match book.statement_of(index, tree) {
+        Ok(statement) => judge_statement(&Source::new(book, index, Version::Printed), &statement, &options).links,
+        Err(_) => Vec::new(),
+    }
 }
 
 /// Judges what an equation states, in the words of any version of it.
@@ -172,7 +183,8 @@ pub(super) fn judge_statement(source: &Source, statement: &Statement, options: &
     }
     let mut known: Vec<Clause> = Vec::new();
     let mut links = Vec::new();
-    for clause in &statement.clauses {
+    for (k, clause) in statement.clauses.iter().enumerate() {
+        let source = &source.at(k);
         if defines(book, index, clause) {
             links.push(match source.claim(clause, &entry.scope, &known) {
                 Ok(_) => definition(clause),
@@ -180,7 +192,14 @@ pub(super) fn judge_statement(source: &Source, statement: &Statement, options: &
             });
             known.push(clause.clone());
         } else {
-            links.push(judge_link(source, clause, &entry.scope, &known, options));
+            let link = judge_link(source, clause, &entry.scope, &known, options);
+            let equality = matches!(clause.rel, Rel::Eq | Rel::Equiv) || semantics::is_geometric(clause.rel);
+            if equality && kind(book, index) == "law" && link.verdict != Verdict::Holds {
+                links.push(taken_as_law(link, source, clause, &known, options));
+                known.push(clause.clone());
+            } else {
+                links.push(link);
+            }
         }
     }
     Outcome::of(links)
@@ -201,6 +220,24 @@ fn nothing_to_evaluate(entry: &Entry, version: Version) -> Outcome {
     }
 }
 
+/// A law that does not follow from its premises is taken as given, if any state satisfies it together with them.
+fn taken_as_law(
+    link: LinkJudgement,
+    source: &Source,
+    clause: &Clause,
+    known: &[Clause],
+    options: &Options,
+) -> LinkJudgement {
+    match law::satisfying_states(source, clause, known, options) {
+        Ok(0) => LinkJudgement { reason: Some("a law that no state satisfies".into()), ..link },
+        Ok(states) => {
+            let reason = Some("a law: taken as given, and there are states that satisfy it".into());
+            LinkJudgement { states, reason, ..definition(clause) }
+        }
+        Err(_) => link,
+    }
+}
+
 /// A solution is judged by putting it into what it is said to solve.
 fn judge_solution(source: &Source, clauses: &[Clause], options: &Options) -> Outcome {
     let solved = match source.solved() {
@@ -211,7 +248,7 @@ fn judge_solution(source: &Source, clauses: &[Clause], options: &Options) -> Out
             return Outcome::without_links(Verdict::Undecided, obstacle_text(&obstacle), problem);
         }
     };
-    let links: Vec<LinkJudgement> = solved
+    let mut links: Vec<LinkJudgement> = solved
         .iter()
         .map(|(clause, scope)| {
             let mut link = judge_link(source, clause, scope, clauses, options);
@@ -219,6 +256,17 @@ fn judge_solution(source: &Source, clauses: &[Clause], options: &Options) -> Out
             link
         })
         .collect();
+    if let (Verdict::Holds, Some(clause)) = (worst(&links), clauses.first()) {
+        let generality = match general::defect(source, clauses, &solved) {
+            Ok(None) => None,
+            Ok(Some(defect)) => {
+                let (verdict, strength) = (Verdict::Fails, Some(Strength::Numeric));
+                Some(LinkJudgement { verdict, strength, reason: Some(defect), ..unjudged(clause) })
+            }
+            Err(obstacle) => Some(obstructed(unjudged(clause), source, clause, &obstacle)),
+        };
+        links.extend(generality);
+    }
     Outcome::of(links)
 }
 
@@ -233,7 +281,7 @@ pub(super) fn defines(book: &Book, index: usize, clause: &Clause) -> bool {
         return false;
     }
     let entry = &book.entries[index];
-    let premises = entry.list(|a| &a.where_).iter().chain(&entry.scope.assume);
+    let premises = entry.wheres(None).into_iter().chain(&entry.scope.assume);
     let premises: Vec<Formula> = premises.map(|p| Formula::new(&p.value)).collect();
     let new_name = |node: &Node| {
         let pattern = crate::semantics::pattern_of(&entry.scope, node);
@@ -321,6 +369,7 @@ fn link_verdict(source: &Source, clause: &Clause, scope: &Scope, known: &[Clause
             Some(Ok(clause)) => clause,
         },
         Rel::Eq | Rel::Equiv | Rel::Implies | Rel::Lt | Rel::Le | Rel::Gt | Rel::Ge => clause.clone(),
+        rel if semantics::is_geometric(rel) => clause.clone(),
         _ => {
             judgement.reason = Some("relations of this kind are not evaluated yet".into());
             return judgement;
@@ -395,7 +444,7 @@ fn kind(book: &Book, index: usize) -> String {
         "inequality"
     } else if a.maps.is_some() {
         "transformation"
-    } else if !a.given.is_empty() || !a.where_.is_empty() {
+    } else if !entry.given(None).is_empty() || !entry.wheres(None).is_empty() {
         "derived"
     } else {
         "identity"
@@ -411,7 +460,8 @@ impl Judgement {
         self.counterexample = self.links.iter().find_map(|l| l.counterexample.clone());
         let decisive = self.links.iter().filter(|l| l.verdict == self.verdict);
         self.strength = decisive.filter_map(|l| l.strength).max_by_key(|s| s.weakness());
-        if self.links.iter().all(|l| l.verdict == Verdict::Definition) && !self.links.is_empty() {
+        let definition = self.links.iter().all(|l| l.verdict == Verdict::Definition) && !self.links.is_empty();
+        if definition && self.kind != "law" {
             self.kind = "definition".into();
         }
         let lost: Vec<LostBits> = self.links.iter().filter_map(|l| l.lost_bits).collect();

@@ -118,7 +118,7 @@ fn course(sampler: &Sampler, small: SymId, reciprocal: bool, random: &mut Random
         state.free[place] = value;
         state.values[small.index()] = value.to_f64();
         let from = sampler.hinted(&state, last_start.clone());
-        sampler.system.solve(&mut state, &from).ok()?;
+        sampler.system.solve(&mut state, &from).ok().filter(|()| sampler.is_allowed(&state))?;
         last_start = sampler.system.unknowns.iter().map(|u| state.values[u.symbol.index()]).collect();
         let parameter = if reciprocal { 1.0 / value.to_f64() } else { value.to_f64() };
         course.push((parameter, relative_residual::<Df64>(sampler, &state, &mut work)?));

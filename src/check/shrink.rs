@@ -73,7 +73,7 @@ impl Shrinker<'_, '_> {
         trial.free[k] = value;
         trial.values[self.sampler.system.free[k].symbol.index()] = value.to_f64();
         let start: Vec<f64> = self.sampler.system.unknowns.iter().map(|u| state.values[u.symbol.index()]).collect();
-        self.sampler.system.solve(&mut trial, &start).ok()?;
+        self.sampler.system.solve(&mut trial, &start).ok().filter(|()| self.sampler.is_allowed(&trial))?;
         let sides = self.sides(&trial)?;
         Some((trial, sides))
     }

@@ -85,7 +85,7 @@ impl<'b> Trial<'b> {
         links: &[LinkJudgement],
         options: &Options,
     ) -> Option<Self> {
-        let source = Source { book, index, version };
+        let source = Source::new(book, index, version);
         let statement = book.statement(index, version).ok()?;
         let entry = &book.entries[index];
         let solution = !entry.list(|a| &a.solves).is_empty();
@@ -94,7 +94,7 @@ impl<'b> Trial<'b> {
         for (k, clause) in statement.clauses.iter().enumerate().filter(|_| !solution) {
             let verdict = links.get(k).map_or(Verdict::Undecided, |l| l.verdict);
             let bench =
-                (verdict != Verdict::Definition).then(|| Bench::new(&source, clause, &known, options)).flatten();
+                (verdict != Verdict::Definition).then(|| Bench::new(&source.at(k), clause, &known, options)).flatten();
             if verdict == Verdict::Definition {
                 known.push(clause.clone());
             }
@@ -135,10 +135,53 @@ impl<'b> Trial<'b> {
             .unwrap_or(Outcome::Holds)
     }
 
-    /// Whether a formula says the same as the original, whatever the premises are: see [`sameness`].
+    /// What becomes of the links of these numbers in a formula with as many links as the original, whatever the others
+    /// do: the worst of them.
+    pub fn outcome_at(&mut self, tree: &Node, links: &[usize]) -> Outcome {
+        let Ok(statement) = self.source.book.statement_of(self.source.index, tree) else { return Outcome::Unclear };
+        if self.solution || statement.clauses.len() != self.links.len() {
+            return Outcome::Unclear;
+        }
+        let mut confirm = Vec::new();
+        for k in links.iter().copied() {
+            if statement.clauses[k] == self.statement.clauses[k] {
+                if self.links[k].verdict > Verdict::Asymptotic {
+                    return Outcome::Fails;
+                }
+                continue;
+            }
+            match self.quick(k, &statement.clauses[k]) {
+                Quick::Agrees | Quick::Elsewhere => confirm.push(k),
+                Quick::Differs => return Outcome::Fails,
+                Quick::Error(_) => return Outcome::Unclear,
+            }
+        }
+        let outcomes: Vec<Outcome> = confirm.into_iter().map(|k| self.link_in_full(&statement, k)).collect();
+        let bad = outcomes.iter().find(|o| !matches!(o, Outcome::Holds | Outcome::Definition));
+        let definition = outcomes.iter().find(|o| **o == Outcome::Definition);
+        *bad.or(definition).unwrap_or(&Outcome::Holds)
+    }
+
+    /// Whether a formula that holds says the same as the original, whatever the premises are: see [`sameness`].
     pub fn is_equivalent(&self, tree: &Node) -> bool {
         let Ok(statement) = self.source.book.statement_of(self.source.index, tree) else { return false };
-        let (own, other) = (&self.statement.clauses, &statement.clauses);
+        // An equation has one general solution, however its constants are named.
+        if self.solution && !self.source.book.entries[self.source.index].list(|a| &a.general).is_empty() {
+            return true;
+        }
+        self.same_clauses(&self.statement.clauses, &statement.clauses)
+    }
+
+    /// Whether two formulas in the place of the original say the same as each other.
+    pub fn say_the_same(&self, a: &Node, b: &Node) -> bool {
+        let clauses = |tree| self.source.book.statement_of(self.source.index, tree).map(|s| s.clauses);
+        match (clauses(a), clauses(b)) {
+            (Ok(a), Ok(b)) => self.same_clauses(&a, &b),
+            _ => false,
+        }
+    }
+
+    fn same_clauses(&self, own: &[Clause], other: &[Clause]) -> bool {
         self.all_same(own, other) || self.all_same(&sameness::split(own), &sameness::split(other))
     }
 
@@ -223,7 +266,7 @@ impl<'b> Trial<'b> {
         let known: Vec<Clause> =
             definitions.filter(|(l, _)| l.verdict == Verdict::Definition).map(|(_, c)| c.clone()).collect();
         self.with_rising_states(&mut |options| {
-            let judged = judge_link(&self.source, clause, &entry.scope, &known, options);
+            let judged = judge_link(&self.source.at(k), clause, &entry.scope, &known, options);
             (judged.verdict, judged.strength)
         })
     }

@@ -43,6 +43,12 @@ pub enum EditKind {
     Bracket,
     /// A factor is put in.
     Insert,
+    /// A cross for a dot.
+    Operator,
+    /// A term is put in.
+    Term,
+    /// A symbol is replaced by a product.
+    Replace,
 }
 
 /// A single edit.
@@ -103,7 +109,7 @@ pub fn mutants(tree: &Node, scope: &Scope, reach: Reach) -> Vec<Mutant> {
 }
 
 /// The tree with the node at a path (child by child from the root) replaced.
-fn replaced_at(node: &Node, path: &[usize], new: &Node) -> Node {
+pub(super) fn replaced_at(node: &Node, path: &[usize], new: &Node) -> Node {
     let Some((first, rest)) = path.split_first() else { return new.clone() };
     let mut k = 0;
     node.map_children(&mut |child| {

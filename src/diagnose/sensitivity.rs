@@ -74,7 +74,7 @@ impl Synonyms {
     fn new(book: &Book, index: usize) -> Self {
         let entry = &book.entries[index];
         let mut synonyms = Synonyms { first: HashMap::new() };
-        for premise in entry.list(|a| &a.where_).iter().chain(&entry.scope.assume) {
+        for premise in entry.wheres(None).into_iter().chain(&entry.scope.assume) {
             let Ok(Node { kind: Kind::Chain { first: Some(first), links }, .. }) = latex::parse(&premise.value) else {
                 continue;
             };

@@ -1,7 +1,7 @@
 //! Derivatives, differentials, bases that rotate, and the values that indices run through.
 
 use crate::expr::{Expr, Graph};
-use crate::latex::ast::{Font, Kind, Node, Rel, Span};
+use crate::latex::ast::{BigOp, Font, Kind, Node, Rel, Span};
 
 use super::elaborate::{Elaborator, Typed};
 use super::error::{Error, Result};
@@ -285,7 +285,7 @@ impl Elaborator<'_> {
         Ok(true)
     }
 
-    fn integer(&mut self, node: &Node) -> Result<i64> {
+    pub(super) fn integer(&mut self, node: &Node) -> Result<i64> {
         let typed = self.value(node)?;
         let e = self.scalar(&typed, &node.span)?;
         match self.world.graph.as_rational(e) {
@@ -316,11 +316,19 @@ impl Elaborator<'_> {
         {
             found.push(s.clone());
         }
+        if let Some((entry, _)) = self.entry(node) {
+            let open = |letter: &&String| self.index_value(letter).is_none() && !bound.contains(letter);
+            for letter in entry.hidden.iter().filter(open) {
+                if !found.contains(letter) {
+                    found.push(letter.clone());
+                }
+            }
+        }
         let depth = bound.len();
         for child in children(node) {
             let mut limits = Vec::new();
             if let Kind::Scripts { base, sub, .. } = &child.kind
-                && matches!(base.kind, Kind::BigOp(_))
+                && is_sum(base)
             {
                 // What follows the operator within this node is bound by it.
                 if let Some(sub) = sub {
@@ -329,7 +337,7 @@ impl Elaborator<'_> {
                 bound.extend(limits);
                 continue;
             }
-            if matches!(child.kind, Kind::BigOp(_)) {
+            if is_sum(child) {
                 // A sum without limits runs over all indices behind it.
                 break;
             }
@@ -337,6 +345,11 @@ impl Elaborator<'_> {
         }
         bound.truncate(depth);
     }
+}
+
+/// Whether an operator runs through indices.
+fn is_sum(node: &Node) -> bool {
+    matches!(node.kind, Kind::BigOp(BigOp::Sum | BigOp::Product))
 }
 
 /// The nodes directly below a node, products laid flat so that what follows a big operator stands behind it.

@@ -65,7 +65,7 @@ impl<'w> Elaborator<'w> {
             Kind::Ellipsis => Err(Error::unsupported("an ellipsis stands for terms that are not printed", &node.span)
                 .with_help("give the formula a `reading` in which the terms are written out or summed")),
             Kind::Factorial(..) => Err(Error::unsupported("factorials are not evaluated yet", &node.span)),
-            Kind::At { .. } => Err(Error::unsupported("a value at a condition is not evaluated yet", &node.span)),
+            Kind::At { body, at } => self.evaluated_at(body, at, &node.span),
             Kind::Chain { .. } | Kind::Rows(_) | Kind::Marked(..) => {
                 Err(Error::unsupported("a relation stands where a value is expected", &node.span))
             }
@@ -244,6 +244,16 @@ impl<'w> Elaborator<'w> {
     ) -> Result<Typed> {
         // Dots belong to the whole name: \dot{r}_G is the derivative of r_G.
         if let Kind::Dots(n, inner) = &base.kind {
+            let whole = Kind::Scripts {
+                base: inner.clone(),
+                primes,
+                sub: sub.cloned().map(Box::new),
+                sup: sup.cloned().map(Box::new),
+            };
+            let whole = Node::new(whole, node.span.clone());
+            if sup.is_some() && self.is_declared(&whole) {
+                return self.atom(&Node::new(Kind::Dots(*n, Box::new(whole)), node.span.clone()));
+            }
             let kind = match (primes, sub) {
                 (0, None) => inner.kind.clone(),
                 _ => Kind::Scripts { base: inner.clone(), primes, sub: sub.cloned().map(Box::new), sup: None },
@@ -267,6 +277,12 @@ impl<'w> Elaborator<'w> {
             let whole = self.value(base)?;
             return self.component(&whole, &basis, axis, &node.span);
         }
+        if let (0, Some(sub), Kind::Group { .. }) = (primes, sub, &base.kind)
+            && super::motion::is_start(sub)
+        {
+            let inner = self.value(base)?;
+            return Ok(self.started(&inner));
+        }
         Err(self.not_declared(node))
     }
 
@@ -282,7 +298,7 @@ impl<'w> Elaborator<'w> {
             return None;
         }
         if let Some(entry) = self.scope.get(&exact) {
-            return Some((entry, Vec::new()));
+            return Some((entry, entry.hidden.iter().filter_map(|letter| self.index_value(letter)).collect()));
         }
         let values = std::cell::RefCell::new(Vec::new());
         let is_index = |letter: &str| self.index_value(letter).inspect(|v| values.borrow_mut().push(*v)).is_some();
@@ -305,6 +321,13 @@ impl<'w> Elaborator<'w> {
         let Some((entry, indices)) = self.entry(node) else { return Ok(None) };
         let entry = entry.clone();
         let name = instance(&entry.pattern, &indices);
+        let name = match entry.hidden.iter().find(|letter| self.index_value(letter).is_none()) {
+            Some(letter) => {
+                return Err(Error::undeclared(format!("the index {letter} of {name} has no value here"), &node.span));
+            }
+            None if entry.hidden.is_empty() => name,
+            None => format!("{name}_{{{}}}", indices.iter().map(i64::to_string).collect::<Vec<_>>().join(",")),
+        };
         let value = match &entry.kind {
             EntryKind::Scalar => Value::Scalar(self.scalar_symbol(&entry, &name, name.clone())),
             EntryKind::Vector => Value::Vector(

@@ -161,10 +161,13 @@ impl Elaborator<'_> {
             if let Some(found) = self.spelt_together(node, next)? {
                 return Ok((found, 2));
             }
+            if let Some(found) = self.choices(node, next)? {
+                return Ok((found, 2));
+            }
             if self.is_differential_sign(node) {
                 return self.differential(next).map(|t| (t, 2));
             }
-            if is_group_of_t(next) && self.depends_on_t(node) {
+            if is_group_of_t(next) && self.depends_on_t(node) || self.is_argument_of(next, node) {
                 return self.value(node).map(|t| (t, 2));
             }
         }
@@ -181,6 +184,13 @@ impl Elaborator<'_> {
             return Ok(None);
         }
         self.atom(&pair).map(Some)
+    }
+
+    /// Whether a group names the arguments that a symbol is declared to be a function of, so that the symbol is meant.
+    fn is_argument_of(&self, group: &Node, node: &Node) -> bool {
+        let Some((entry, _)) = self.entry(node) else { return false };
+        !entry.arguments.is_empty()
+            && matches!(&group.kind, Kind::Group { body, .. } if super::name::spelling(body) == entry.arguments.join(","))
     }
 
     fn depends_on_t(&self, node: &Node) -> bool {
@@ -318,8 +328,10 @@ impl Elaborator<'_> {
         if rest.is_empty() {
             return Err(Error::unsupported("this operator has nothing to act on", &node.span));
         }
-        if !matches!(op, BigOp::Sum | BigOp::Product) {
-            return Err(Error::unsupported("integrals are not evaluated yet", &node.span));
+        match op {
+            BigOp::Sum | BigOp::Product => {}
+            BigOp::Integral => return self.integral(sub, sup, rest, &node.span),
+            _ => return Err(Error::unsupported("integrals over areas are not evaluated yet", &node.span)),
         }
         let ranges = self.index_values(sub, sup, rest, &node.span)?;
         let mut total: Option<Typed> = None;

@@ -10,19 +10,25 @@
 //! first is the author's and the second is the annotator's.
 
 mod calculus;
+mod counting;
 mod elaborate;
 mod error;
+mod geometric;
 mod juxtaposition;
+mod motion;
 mod name;
 mod scope;
 mod statement;
 mod terms;
+#[cfg(test)]
+mod testing;
 pub mod units;
 mod value;
 mod world;
 
 pub use elaborate::{Elaborator, Typed};
 pub use error::{Error, ErrorKind};
+pub use geometric::is_geometric;
 pub use name::spelling;
 pub use scope::{Basis, Entry, EntryKind, Scope, pattern_of};
 pub use statement::{

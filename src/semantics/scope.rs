@@ -3,7 +3,7 @@
 use std::collections::HashMap;
 use std::sync::Arc;
 
-use crate::document::{BasisDeclaration, Declarations, Problem, Spanned, SymbolDeclaration};
+use crate::document::{Arguments, BasisDeclaration, Declarations, Problem, Spanned, SymbolDeclaration};
 use crate::latex;
 use crate::latex::ast::{Kind, Node};
 
@@ -72,6 +72,10 @@ pub struct Entry {
     pub declared: usize,
     /// Whether it takes integers only.
     pub integer: bool,
+    /// The indices it has one value for each of that are not printed: the j of \\sum m r^2.
+    pub hidden: Vec<String>,
+    /// The spellings of the arguments that may be printed behind it, in brackets.
+    pub arguments: Vec<String>,
 }
 
 impl Entry {
@@ -208,10 +212,17 @@ impl Scope {
     pub fn declare_symbol(&mut self, d: &SymbolDeclaration, problems: &mut Vec<Problem>) {
         let each: Vec<String> =
             d.each.iter().filter_map(|i| parse_name(i, problems)).map(|node| spelling(&node)).collect();
+        let arguments = match &d.function {
+            Some(Arguments::Names(names)) => names.iter().filter_map(|n| parse_name(n, problems)).collect(),
+            _ => Vec::new(),
+        };
+        let arguments: Vec<String> = arguments.iter().map(spelling).collect();
         let dimension = d.unit.as_ref().and_then(|unit| parse_unit(unit, problems));
         for (position, name) in d.names.iter().enumerate() {
             let Some(node) = parse_name(name, problems) else { continue };
             let pattern = pattern(&node, &|letter| each.iter().any(|e| e == letter));
+            let printed = |letter: &String| self::pattern(&node, &|l| l == letter).contains('#');
+            let hidden = each.iter().filter(|letter| !printed(letter)).cloned().collect();
             let Some(kind) = entry_kind(d, position, problems) else { continue };
             let entry = Entry {
                 pattern: pattern.clone(),
@@ -222,6 +233,8 @@ impl Scope {
                 dimension,
                 declared: name.span.start,
                 integer: d.integer,
+                hidden,
+                arguments: arguments.clone(),
             };
             self.insert(pattern, entry);
         }
@@ -253,6 +266,8 @@ impl Entry {
             dimension: None,
             declared: 0,
             integer: false,
+            hidden: Vec::new(),
+            arguments: Vec::new(),
         }
     }
 }

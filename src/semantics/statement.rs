@@ -6,9 +6,10 @@ use crate::latex::to_latex;
 
 use super::elaborate::Elaborator;
 use super::error::{Error, Result};
+use super::geometric::{as_equation, is_geometric};
 use super::juxtaposition::Item;
 use super::scope::Scope;
-use super::value::Value;
+use super::value::{Matrix, Value};
 use super::world::World;
 
 /// One side of a link.
@@ -89,6 +90,7 @@ impl Builder {
                 rows.iter().filter_map(|row| row.first()).try_for_each(|cell| self.add(cell))
             }
             Kind::Group { open: Delim::None | Delim::Brace, body, .. } if holds_relation(body) => self.add(body),
+            Kind::Group { open: Delim::Paren, body, .. } if holds_relation(body) => self.aside(body),
             Kind::Juxt(factors) if factors.iter().any(holds_relation) => {
                 factors.iter().filter(|f| holds_relation(f)).try_for_each(|f| self.add(f))
             }
@@ -99,6 +101,15 @@ impl Builder {
                 Ok(())
             }
         }
+    }
+
+    /// What is said in brackets: a statement of its own, or a last link, `f (= g)`. What follows does not continue it.
+    fn aside(&mut self, body: &Node) -> Result<()> {
+        let (last, head) = (self.out.last.clone(), self.out.head.clone());
+        self.add(body)?;
+        self.out.last = last.or(self.out.last.take());
+        self.out.head = head.or(self.out.head.take());
+        Ok(())
     }
 
     fn begin(&mut self, node: &Node) {
@@ -119,16 +130,18 @@ impl Builder {
             _ => {}
         }
         for (k, link) in links.iter().enumerate() {
-            let states_both =
-                links[..k].iter().any(|l| is_equality(l.rel)) || links[k + 1..].iter().any(|l| is_equality(l.rel));
-            if matches!(link.rel, Rel::Implies | Rel::Iff | Rel::ImpliedBy) && states_both {
+            if separates(links, k) {
                 self.begin(&link.rhs);
                 continue;
             }
             if matches!(link.rhs.kind, Kind::Empty) || is_words(&link.rhs) && !is_constant(&link.rhs) {
                 continue;
             }
-            self.link(link)?;
+            let (side, aside) = without_aside(&link.rhs);
+            self.link(&Link { rhs: side, ..link.clone() })?;
+            if let Some(body) = aside {
+                self.aside(body)?;
+            }
         }
         Ok(())
     }
@@ -169,8 +182,20 @@ pub fn mentions(scope: &Scope, node: &Node, found: &mut std::collections::HashSe
     }
 }
 
-fn is_equality(rel: Rel) -> bool {
-    matches!(rel, Rel::Eq | Rel::Equiv)
+/// Whether a link of a chain does not relate its sides but the statements before and behind it. An arrow does where
+/// both are statements; where one of them is not, it leads to a limit or an image.
+fn separates(links: &[Link], k: usize) -> bool {
+    let states = |links: &[Link]| links.iter().any(|l| compares(l.rel));
+    let (before, behind) = (states(&links[..k]), states(&links[k + 1..]));
+    match links[k].rel {
+        Rel::Implies | Rel::Iff | Rel::ImpliedBy => before || behind,
+        Rel::To => before && behind,
+        _ => false,
+    }
+}
+
+fn compares(rel: Rel) -> bool {
+    matches!(rel, Rel::Eq | Rel::Equiv | Rel::Lt | Rel::Gt | Rel::Le | Rel::Ge) || is_geometric(rel)
 }
 
 /// Whether a node is or holds a relation, not counting those within ordinary brackets.
@@ -182,6 +207,19 @@ fn holds_relation(node: &Node) -> bool {
         Kind::Group { open: Delim::None | Delim::Brace, body, .. } => holds_relation(body),
         Kind::Matrix { env: MatrixEnv::Cases | MatrixEnv::Array, rows } => rows.iter().flatten().any(holds_relation),
         _ => false,
+    }
+}
+
+/// A side without the statement in brackets behind it, and that statement: `f (= g)`, `0 (a \parallel b)`.
+fn without_aside(side: &Node) -> (Node, Option<&Node>) {
+    let Kind::Juxt(factors) = &side.kind else { return (side.clone(), None) };
+    match factors.split_last() {
+        Some((Node { kind: Kind::Group { open: Delim::Paren, body, .. }, .. }, rest)) if holds_relation(body) => {
+            let kind = if rest.len() == 1 { rest[0].kind.clone() } else { Kind::Juxt(rest.to_vec()) };
+            let end = rest.last().map_or(side.span.end, |n| n.span.end);
+            (Node::new(kind, side.span.start..end), Some(body))
+        }
+        _ => (side.clone(), None),
     }
 }
 
@@ -272,8 +310,8 @@ pub fn understand(world: &mut World, scope: &Scope, clause: &Clause, upper: bool
     }
     let items: Vec<Item> = sides.iter().map(|n| Item::Factor(n)).collect();
     let letters = Elaborator::new(world, scope, Vec::new(), upper).unbound_indices(&items);
-    let mut link =
-        TypedLink { rel: clause.rel, instances: Vec::new(), lhs_text: String::new(), rhs_text: String::new() };
+    let rel = if is_geometric(clause.rel) { Rel::Eq } else { clause.rel };
+    let mut link = TypedLink { rel, instances: Vec::new(), lhs_text: String::new(), rhs_text: String::new() };
     for assignment in assignments(scope, &letters) {
         let tag = assignment.iter().map(|(l, v)| format!("{l} = {v}")).collect::<Vec<_>>().join(", ");
         let mut elaborator = Elaborator::new(world, scope, assignment, upper);
@@ -285,7 +323,10 @@ pub fn understand(world: &mut World, scope: &Scope, clause: &Clause, upper: bool
                 (rhs.value, rhs.text)
             }
         };
-        let (left, right) = meet(&mut elaborator, lhs.value, rhs, clause)?;
+        let (mut left, mut right) = meet(&mut elaborator, lhs.value, rhs, clause)?;
+        if is_geometric(clause.rel) {
+            (left, right) = as_equation(elaborator.world, clause.rel, &left, &right, &clause.lhs.span)?;
+        }
         link.instances.push(Instance { tag: (!tag.is_empty()).then_some(tag), lhs: left, rhs: right });
         (link.lhs_text, link.rhs_text) = (lhs.text, rhs_text);
     }
@@ -296,6 +337,14 @@ pub fn understand(world: &mut World, scope: &Scope, clause: &Clause, upper: bool
 /// its components.
 fn meet(elaborator: &mut Elaborator, lhs: Value, rhs: Value, clause: &Clause) -> Result<(Value, Value)> {
     let zero = elaborator.world.graph.int(0);
+    let (lhs, rhs) = match (&lhs, &rhs) {
+        (Value::Tuple(_), Value::Vector(_) | Value::Matrix(_)) => (column_of(&lhs), rhs),
+        (Value::Vector(_) | Value::Matrix(_), Value::Tuple(_)) => {
+            let column = column_of(&rhs);
+            (lhs, column)
+        }
+        _ => (lhs, rhs),
+    };
     let span = match &clause.rhs {
         Side::Node(n) => n.span.clone(),
         Side::Constant => clause.lhs.span.clone(),
@@ -332,6 +381,16 @@ fn meet(elaborator: &mut Elaborator, lhs: Value, rhs: Value, clause: &Clause) ->
             ))
         }
     })
+}
+
+/// The column that a tuple of numbers beside a vector stands for; anything else as it is.
+fn column_of(tuple: &Value) -> Value {
+    match tuple {
+        Value::Tuple(items) if items.iter().all(|item| matches!(item, Value::Scalar(_))) => {
+            Value::Matrix(Matrix { rows: items.len(), cols: 1, data: tuple.components() })
+        }
+        other => other.clone(),
+    }
 }
 
 /// All assignments of values to indices; one empty assignment where there are none.

@@ -4,6 +4,7 @@ use std::collections::HashMap;
 
 use crate::expr::{Expr, Graph, SymId};
 
+use super::motion::History;
 use super::units::Dimension;
 use super::value::Value;
 
@@ -67,6 +68,7 @@ pub struct World {
     facts: HashMap<SymId, Facts>,
     triads: HashMap<String, [[Expr; 3]; 3]>,
     joints: Option<Vec<Joint>>,
+    pub(super) history: History,
 }
 
 impl World {

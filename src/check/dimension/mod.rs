@@ -250,7 +250,7 @@ fn equation(book: &Book, index: usize, seen: &mut HashSet<usize>, quantities: &m
 /// The premises that an equation's annotation and its section state, each once.
 fn premises(entry: &Entry, seen: &mut HashSet<usize>, quantities: &mut Quantities) -> Vec<LinkReading> {
     let scope: &Scope = &entry.scope;
-    let texts = entry.scope.assume.iter().chain(entry.list(|a| &a.where_)).filter(|t| seen.insert(t.span.start));
+    let texts = entry.scope.assume.iter().chain(entry.wheres(None)).filter(|t| seen.insert(t.span.start));
     let trees = texts.filter_map(|text| Formula::new(&text.value).tree.ok());
     let statements = trees.filter_map(|tree| semantics::statement(&tree, None).ok());
     let clauses: Vec<Clause> = statements.flat_map(|s| s.clauses).collect();
