@@ -19,6 +19,7 @@ use crate::latex::to_latex;
 use super::calculus::Derivative;
 use super::elaborate::{Elaborator, Typed};
 use super::error::{Error, Result};
+use super::quaternion;
 use super::value::{self, Value};
 use super::world::{Joint, Role};
 
@@ -102,6 +103,14 @@ impl Elaborator<'_> {
 
     fn juxtaposed(&mut self, a: Typed, b: Typed, span: &Span) -> Result<Typed> {
         let (left, right) = self.aligned(&a.value, &b.value, span)?;
+        if self.scope.quaternions
+            && !matches!((&left, &right), (Value::Scalar(_), _) | (_, Value::Scalar(_)))
+            && let Some(x) = quaternion::parts(&mut self.world.graph, &left)
+            && let Some(y) = quaternion::parts(&mut self.world.graph, &right)
+        {
+            let value = quaternion::product(&mut self.world.graph, &x, &y);
+            return Ok(Typed::new(value, format!("({} {})", a.text, b.text)));
+        }
         let value = value::multiply(&mut self.world.graph, &left, &right, span)?;
         Ok(Typed::new(value, format!("({} {})", a.text, b.text)))
     }
@@ -150,6 +159,11 @@ impl Elaborator<'_> {
         let Some(Item::Factor(node)) = items.first() else {
             return Err(Error::unsupported("a factor is missing here", &span_of(items)));
         };
+        if self.scope.quaternions
+            && let Some(found) = self.taken_apart(items)?
+        {
+            return Ok(found);
+        }
         let (head, sup) = head_and_power(node);
         match &head.kind {
             Kind::Function(name) => return self.function(name, sup, node, &items[1..]).map(|(t, n)| (t, n + 1)),
@@ -206,7 +220,13 @@ impl Elaborator<'_> {
         if let Some(derivative) = self.derivative(num, den) {
             return self.apply_derivative(derivative, node, rest);
         }
-        let (n, d) = (self.value(num)?, self.value(den)?);
+        let (n, mut d) = (self.value(num)?, self.value(den)?);
+        if self.scope.quaternions && matches!(d.value, Value::Vector(_) | Value::Quaternion(..)) {
+            let graph = &mut self.world.graph;
+            let parts = quaternion::parts(graph, &d.value);
+            d.value = parts.map_or(d.value, |parts| quaternion::inverse(graph, &parts));
+            return self.juxtaposed(n, d, &node.span).map(|t| (t, 0));
+        }
         let value = value::divide(&mut self.world.graph, &n.value, &d.value, &den.span)?;
         let quotient = Typed::new(value, format!("({} / {})", n.text, d.text));
         self.with_power(quotient, power, &node.span).map(|t| (t, 0))

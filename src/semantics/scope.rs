@@ -114,6 +114,8 @@ pub struct Scope {
     bases: Vec<Arc<Basis>>,
     /// Premises that hold throughout the section, in LaTeX with their place in the file.
     pub assume: Vec<Spanned<String>>,
+    /// Whether vectors side by side are multiplied as quaternions.
+    pub quaternions: bool,
     /// Whether the section is written in natural units, so that dimensions say nothing.
     pub natural_units: bool,
 }
@@ -241,6 +243,7 @@ impl Scope {
     }
 
     fn insert(&mut self, pattern: String, entry: Entry) {
+        self.quaternions |= super::quaternion::is_operator(&entry);
         self.entries.insert(pattern, Arc::new(entry));
     }
 
