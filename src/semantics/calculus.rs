@@ -7,7 +7,7 @@ use super::elaborate::{Elaborator, Typed};
 use super::error::{Error, Result};
 use super::juxtaposition::Item;
 use super::name::spelling;
-use super::scope::Basis;
+use super::scope::{Basis, EntryKind};
 use super::units::Dimension;
 use super::value::{self, Matrix, Value};
 use super::world::{Facts, Quantity};
@@ -333,7 +333,11 @@ impl Elaborator<'_> {
                     found.push(letter.clone());
                 }
             }
-            return self.collect_letters(node, bound, found);
+            self.collect_letters(node, bound, found);
+            if let EntryKind::Same(other) = &entry.kind {
+                self.collect_indices(other, bound, found);
+            }
+            return;
         }
         if let Kind::Scripts { base, primes, sub: Some(sub), sup } = &node.kind
             && !matches!(base.kind, Kind::BigOp(_))

@@ -1,6 +1,6 @@
 //! Which symbols are declared where an equation stands.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
 use crate::document::{Arguments, BasisDeclaration, Declarations, Problem, Spanned, SymbolDeclaration};
@@ -238,8 +238,37 @@ impl Scope {
                 hidden,
                 arguments: arguments.clone(),
             };
-            self.insert(pattern, entry);
+            self.insert(pattern.clone(), entry);
+            if self.is_circular(&pattern) {
+                let message = format!("{} is another notation of itself", name.value);
+                problems.push(Problem::error("kenzan::name", message, name.span.clone()));
+                self.entries.remove(&pattern);
+            }
         }
+    }
+
+    /// The declared names in an expression; the letters within a name are none.
+    fn collect_names(&self, node: &Node, found: &mut HashSet<String>) {
+        let pattern = pattern_of(self, node);
+        if self.get(&pattern).is_some() {
+            found.insert(pattern);
+            return;
+        }
+        node.children().into_iter().for_each(|child| self.collect_names(child, found));
+    }
+
+    /// Whether what a name stands for leads back to it.
+    fn is_circular(&self, pattern: &str) -> bool {
+        let mut found = HashSet::new();
+        let mut queue = vec![pattern.to_owned()];
+        while let Some(name) = queue.pop() {
+            let Some(entry) = self.get(&name) else { continue };
+            let (EntryKind::Same(node) | EntryKind::Component { of: node, .. }) = &entry.kind else { continue };
+            let mut names = HashSet::new();
+            self.collect_names(node, &mut names);
+            queue.extend(names.into_iter().filter(|name| found.insert(name.clone())));
+        }
+        found.contains(pattern)
     }
 
     fn insert(&mut self, pattern: String, entry: Entry) {
