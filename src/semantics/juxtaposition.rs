@@ -12,7 +12,7 @@
 //!
 //! Visible operators: cross products first, then dots and slashes from left to right.
 
-use crate::expr::Func;
+use crate::expr::{Expr, Func};
 use crate::latex::ast::{BigOp, Kind, Node, ProductOp, Span};
 use crate::latex::to_latex;
 
@@ -253,10 +253,12 @@ impl Elaborator<'_> {
             return Err(Error::unsupported(format!("\\{name} has no argument here"), &node.span));
         }
         let argument = self.items(&rest[..used])?;
-        self.world.join(|| Joint {
-            role: Role::Argument(name.to_owned()),
-            parts: vec![(latex_of(&rest[..used]), argument.value.clone())],
-        });
+        if !matches!(name, "max" | "min") {
+            self.world.join(|| Joint {
+                role: Role::Argument(name.to_owned()),
+                parts: vec![(latex_of(&rest[..used]), argument.value.clone())],
+            });
+        }
         let inverse = matches!(sup.map(|s| &s.kind), Some(Kind::Sum(t)) if t.len() == 1 && is_minus_one(&t[0]));
         let name = if inverse { format!("arc{name}") } else { name.to_owned() };
         let result = self.call(&name, argument, &node.span)?;
@@ -306,6 +308,9 @@ impl Elaborator<'_> {
             let det = value::determinant(&mut self.world.graph, m);
             return Ok(Typed::new(Value::Scalar(det), format!("det({})", argument.text)));
         }
+        if let (Value::Tuple(items), "max" | "min") = (&argument.value, name) {
+            return self.extreme(items, name == "max", span);
+        }
         // What Kenzan does not know must not look like a mistake of the author's: the maximum of a tuple, exp of a matrix.
         if !FUNCTIONS.contains(&name) || name == "exp" && matches!(argument.value, Value::Matrix(_)) {
             let of = argument.value.shape();
@@ -338,6 +343,26 @@ impl Elaborator<'_> {
             }
         };
         Ok(Typed::new(Value::Scalar(value), format!("{name}({})", argument.text)))
+    }
+
+    /// The largest or least of some numbers: of two, half the sum of them and of their distance.
+    fn extreme(&mut self, items: &[Value], largest: bool, span: &Span) -> Result<Typed> {
+        let mut extreme: Option<Expr> = None;
+        for item in items {
+            let e = self.scalar(&Typed::new(item.clone(), ""), span)?;
+            let graph = &mut self.world.graph;
+            extreme = Some(match extreme {
+                None => e,
+                Some(acc) => {
+                    let (sum, difference, two) = (graph.add(acc, e), graph.sub(acc, e), graph.int(2));
+                    let distance = graph.call(Func::Abs, difference);
+                    let twice = if largest { graph.add(sum, distance) } else { graph.sub(sum, distance) };
+                    graph.div(twice, two)
+                }
+            });
+        }
+        let e = extreme.ok_or_else(|| Error::unsupported("the largest of nothing", span))?;
+        Ok(Typed::new(Value::Scalar(e), if largest { "max" } else { "min" }))
     }
 
     fn big_operator(&mut self, op: BigOp, node: &Node, rest: &[Item]) -> Result<Typed> {

@@ -122,6 +122,7 @@ impl Builder {
 
     fn chain(&mut self, first: Option<&Node>, links: &[Link], node: &Node) -> Result<()> {
         match first {
+            Some(first @ Node { kind: Kind::Annotated { .. }, .. }) if holds_relation(first) => self.add(first)?,
             Some(first) if !is_words(first) => self.begin(first),
             _ if self.out.last.is_none() => {
                 return Err(Error::unsupported("a relation with nothing before it", &node.span)
@@ -132,7 +133,7 @@ impl Builder {
         }
         for (k, link) in links.iter().enumerate() {
             if separates(links, k) {
-                self.begin(&link.rhs);
+                self.add(&link.rhs)?;
                 continue;
             }
             if matches!(link.rhs.kind, Kind::Empty) || is_words(&link.rhs) && !is_constant(&link.rhs) {
