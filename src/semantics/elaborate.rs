@@ -356,7 +356,13 @@ impl<'w> Elaborator<'w> {
                 Some(v) => Value::Scalar(self.world.graph.int(v)),
                 None => return Err(Error::undeclared(format!("the index {name} has no value here"), &node.span)),
             },
-            EntryKind::Same(other) => return self.value(other).map(Some),
+            EntryKind::Same(other) => {
+                let depth = self.indices.len();
+                self.indices.extend(entry.letters.iter().cloned().zip(indices));
+                let value = self.value(other);
+                self.indices.truncate(depth);
+                return value.map(Some);
+            }
             EntryKind::Component { of, basis, axis } => {
                 let whole = self.value(of)?;
                 let component = self.component(&whole, basis, *axis, &node.span)?;

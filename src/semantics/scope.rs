@@ -74,6 +74,8 @@ pub struct Entry {
     pub integer: bool,
     /// The indices it has one value for each of that are not printed: the j of \\sum m r^2.
     pub hidden: Vec<String>,
+    /// The indices that its name prints, in their order.
+    pub letters: Vec<String>,
     /// The spellings of the arguments that may be printed behind it, in brackets.
     pub arguments: Vec<String>,
 }
@@ -224,6 +226,7 @@ impl Scope {
             let Some(node) = parse_name(name, problems) else { continue };
             let pattern = pattern(&node, &|letter| each.iter().any(|e| e == letter));
             let printed = |letter: &String| self::pattern(&node, &|l| l == letter).contains('#');
+            let letters = each.iter().filter(|letter| printed(letter)).cloned().collect();
             let hidden = each.iter().filter(|letter| !printed(letter)).cloned().collect();
             let Some(kind) = entry_kind(d, position, problems) else { continue };
             let entry = Entry {
@@ -236,6 +239,7 @@ impl Scope {
                 declared: name.span.start,
                 integer: d.integer,
                 hidden,
+                letters,
                 arguments: arguments.clone(),
             };
             self.insert(pattern.clone(), entry);
@@ -299,6 +303,7 @@ impl Entry {
             declared: 0,
             integer: false,
             hidden: Vec::new(),
+            letters: Vec::new(),
             arguments: Vec::new(),
         }
     }
