@@ -83,6 +83,9 @@ fn verdict(out: &mut String, judgement: &Judgement) -> std::fmt::Result {
     if let Some(bits) = judgement.bits {
         writeln!(out, "  both sides agree to {bits} bits at {} states", judgement.states)?;
     }
+    if let Some(lost) = judgement.lost_bits {
+        writeln!(out, "  doubles lose {} bits, at worst {}", lost.mean, lost.worst)?;
+    }
     for link in &judgement.links {
         let reason = link.reason.as_ref().map(|r| format!(": {r}")).unwrap_or_default();
         writeln!(out, "  {}  {}{reason}", name(link.verdict), link.latex)?;

@@ -4,10 +4,11 @@
 //! enclosed in a box in which Krawczyk's operator proves that the premises have exactly one solution. There both sides
 //! are evaluated, in rising precision, until zero is excluded from their difference.
 //!
-//! The promise: a certificate is given only where the intervals alone prove that (a) the free symbols are exact and in
-//! their declared ranges, (b) the premises have a solution in the box given, with the signs their ranges declare,
-//! (c) both sides are defined there, and (d) differ: for an inequality, that their difference has the sign it must not
-//! have. What was seen in doubles before is a place to look at, and decides nothing.
+//! The promise: a certificate is given only where it is proved by the intervals alone that (a) the free symbols are exact
+//! and in their declared ranges, (b) the premises have a solution in the box given, with the signs that their ranges
+//! declare, and those that say what is greater hold there, (c) both sides are defined, and (d) differ: for an inequality,
+//! that their difference has the sign it must not have. What was seen in doubles before is a place to look at, and
+//! decides nothing.
 //!
 //! Premises that the state was not solved for, because they follow from the others, must be proved as well: their
 //! residual must be the point zero. Intervals cannot prove that where they have a width; then a state near by is looked
@@ -22,7 +23,7 @@ use rug::{Float, Rational};
 
 use crate::expr::{SymId, Tape, Workspace};
 use crate::latex::ast::Rel;
-use crate::number::{Interval, Mpfr, Number};
+use crate::number::{Interval, Number};
 
 use super::decide::satisfies;
 use super::sampling::Sampler;
@@ -45,6 +46,9 @@ pub enum Uncertified {
     /// An unknown may have the wrong sign.
     #[error("{0} is not proved to have the sign that its range declares")]
     Sign(String),
+    /// A premise may not hold.
+    #[error("a premise that says what is greater is not proved to hold there")]
+    Order,
     /// The solution of the premises is not unique, or nearly not.
     #[error("the premises do not determine the solved symbols uniquely there: their Jacobian is singular")]
     Singular,
@@ -177,13 +181,14 @@ fn enclosed(sampler: &Sampler, state: &State, bits: u32) -> Result<Vec<Interval>
         at[source.symbol.index()] = Interval::from_ratio(value.num.into(), value.den.into(), &bits);
     }
     if !system.unknowns.is_empty() {
-        let near = system.refine::<Mpfr>(state, &bits).ok_or(Uncertified::Singular)?;
         let unknowns: Vec<SymId> = system.unknowns.iter().map(|u| u.symbol).collect();
-        let centre: Vec<Float> = unknowns.iter().map(|u| near[u.index()].value().0.clone()).collect();
+        // As near as doubles are: narrowing does the rest.
+        let centre: Vec<Float> = unknowns.iter().map(|u| Float::with_val(bits, state.values[u.index()])).collect();
         let equations = Equations { values: &system.values, jacobian: &system.jacobian, unknowns: &unknowns };
         equations.enclose(&mut at, &centre, bits)?;
     }
     signs(sampler, &at)?;
+    allowed(sampler, &at, bits)?;
     dependent(sampler, &at, bits)?;
     Ok(at)
 }
@@ -198,6 +203,13 @@ fn signs(sampler: &Sampler, at: &[Interval]) -> Result<(), Uncertified> {
         }
     }
     Ok(())
+}
+
+/// Whether the premises that say what is greater are proved to hold.
+fn allowed(sampler: &Sampler, at: &[Interval], bits: u32) -> Result<(), Uncertified> {
+    let values = evaluate(&sampler.ordered, at, bits, &mut Workspace::default());
+    let positive = values.iter().all(|x| x.sign() == Some(Ordering::Greater));
+    if positive { Ok(()) } else { Err(Uncertified::Order) }
 }
 
 /// Whether the premises that were not solved for are proved to vanish.

@@ -305,11 +305,10 @@ impl<'b> Source<'b> {
         Ok(clauses)
     }
 
-    /// A symbol named in an annotation.
+    /// A symbol named in an annotation; a family's as a tuple.
     pub(super) fn symbol(&self, world: &mut World, text: &Spanned<String>) -> Result<Value, Obstacle> {
         let tree = Formula::new(&text.value).tree.map_err(|e| broken(text, &e))?;
-        let mut elaborator = Elaborator::new(world, self.scope(), Vec::new(), true);
-        elaborator.value(&tree).map(|t| t.value).map_err(|e| unclear(text, &e))
+        semantics::every_value(world, self.scope(), &tree).map_err(|e| unclear(text, &e))
     }
 
     fn solve(&self, world: &mut World) -> Result<Vec<SymId>, Obstacle> {

@@ -14,6 +14,7 @@ use crate::number::{Df64, Number, Real};
 use super::claim::Claim;
 use super::exact;
 use super::judge::Options;
+use super::lost::lost_bits;
 use super::random::Random;
 use super::sampling::{PairValue, Sampler, no_state_text};
 use super::shrink::shrink;
@@ -99,7 +100,11 @@ fn by_values(
         Ok(states) => states,
         Err(e) => return (LinkJudgement { reason: Some(no_state_text(&e)), ..judgement }, unknowns),
     };
-    (refined(judgement, &sampler, &states, options), unknowns)
+    let mut judgement = refined(judgement, &sampler, &states, options);
+    if options.evidence {
+        judgement.lost_bits = lost_bits(&sampler, &states);
+    }
+    (judgement, unknowns)
 }
 
 /// Decides in double-double, and in higher precision where that is not enough.
@@ -183,7 +188,7 @@ fn proof(
     options: &Options,
 ) {
     #[cfg(feature = "rug")]
-    if options.certify {
+    if options.evidence {
         use super::certify::{Claimed, certify};
         let claimed = match sampler.claim.rel {
             rel @ (Rel::Lt | Rel::Le | Rel::Gt | Rel::Ge) => Claimed::Ordered(rel, condition),

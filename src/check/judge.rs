@@ -15,7 +15,7 @@ use super::general;
 use super::law;
 use super::order;
 use super::trouble;
-use super::verdict::{Correction, DimensionStatus, Judgement, LinkJudgement, Strength, Verdict};
+use super::verdict::{Correction, DimensionStatus, Judgement, LinkJudgement, LostBits, Strength, Verdict};
 
 /// What the checker is asked for.
 #[derive(Clone, Debug)]
@@ -26,8 +26,9 @@ pub struct Options {
     pub states: usize,
     /// The precision in bits to decide in, where one is asked for (feature `rug`); otherwise double-double.
     pub precision: Option<u32>,
-    /// Whether counterexamples are to be proved (feature `rug`).
-    pub certify: bool,
+    /// Whether a judgement is to say more than its verdict rests on: certificates of counterexamples (feature `rug`), the
+    /// bits that doubles lose.
+    pub evidence: bool,
     /// The time that each stage may take for an equation: judging it, judging its correction, trying its mutants,
     /// searching what was meant. `None` for no limit.
     pub budget: Option<Duration>,
@@ -35,7 +36,7 @@ pub struct Options {
 
 impl Default for Options {
     fn default() -> Self {
-        Options { seed: 1, states: 64, precision: None, certify: true, budget: None }
+        Options { seed: 1, states: 64, precision: None, evidence: true, budget: None }
     }
 }
 
@@ -97,6 +98,7 @@ pub fn blank(book: &Book, index: usize) -> Judgement {
         sensitivity: None,
         suggestions: Vec::new(),
         unfinished: None,
+        lost_bits: None,
         micros: 0,
         problem: None,
     }
@@ -168,9 +170,10 @@ pub(super) fn judge_version(book: &Book, index: usize, version: Version, options
 
 /// Judges the links of another formula in the place of an equation; none where it cannot be taken apart.
 pub fn judge_tree(book: &Book, index: usize, tree: &Node, options: &Options) -> Vec<LinkJudgement> {
+    let options = Options { evidence: false, ..options.clone() };
     let source = Source::new(book, index, Version::Printed).until(Deadline::after(options.budget));
     match book.statement_of(index, tree) {
-        Ok(statement) => judge_statement(&source, &statement, options).links,
+        Ok(statement) => judge_statement(&source, &statement, &options).links,
         Err(_) => Vec::new(),
     }
 }
@@ -337,6 +340,7 @@ fn unjudged(clause: &Clause) -> LinkJudgement {
         problem: None,
         exact: None,
         inexact: None,
+        lost_bits: None,
     }
 }
 
@@ -471,6 +475,12 @@ impl Judgement {
         let definition = self.links.iter().all(|l| l.verdict == Verdict::Definition) && !self.links.is_empty();
         if definition && self.kind != "law" {
             self.kind = "definition".into();
+        }
+        let lost: Vec<LostBits> = self.links.iter().filter_map(|l| l.lost_bits).collect();
+        if !lost.is_empty() {
+            let mean = lost.iter().map(|l| l.mean).sum::<f64>() / lost.len() as f64;
+            let worst = lost.iter().map(|l| l.worst).fold(0.0, f64::max);
+            self.lost_bits = Some(LostBits { mean: (10.0 * mean).round() / 10.0, worst });
         }
         if self.reason.is_none() {
             self.reason = self.links.iter().find(|l| l.verdict == self.verdict).and_then(|l| l.reason.clone());

@@ -14,6 +14,7 @@ mod general;
 pub mod inspect;
 mod judge;
 mod law;
+mod lost;
 mod newton;
 mod order;
 mod premises;

@@ -52,8 +52,8 @@ pub struct Sampler<'c> {
     branches: Vec<usize>,
     /// Starts for unknowns that one side gives: the unknown's place and the tape of the other side.
     hints: Vec<(usize, Tape)>,
-    /// What must be greater or less than zero.
-    ordered: Tape,
+    /// What must be positive.
+    pub(super) ordered: Tape,
 }
 
 impl<'c> Sampler<'c> {

@@ -100,8 +100,8 @@ impl<'b> Trial<'b> {
             }
             prepared.push(Link { verdict, bench });
         }
-        // Whether another formula fails is asked thousands of times, and never needs a proof.
-        let options = Options { certify: false, ..options.clone() };
+        // Whether another formula fails is asked thousands of times, and needs no proof.
+        let options = Options { evidence: false, ..options.clone() };
         Some(Trial { source, options, statement, links: prepared, solution })
     }
 

@@ -221,6 +221,15 @@ pub struct InferredDimension {
     pub from: String,
 }
 
+/// The bits of a double that rounding in the formula costs, over the states.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct LostBits {
+    /// Their mean.
+    pub mean: f64,
+    /// Those at the worst state.
+    pub worst: f64,
+}
+
 /// The judgement on one link of a chain.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct LinkJudgement {
@@ -251,6 +260,8 @@ pub struct LinkJudgement {
     pub exact: Option<Exact>,
     /// Why an equality that holds has no exact verdict.
     pub inexact: Option<String>,
+    /// What the side that is worse in doubles loses, for an equality.
+    pub lost_bits: Option<LostBits>,
 }
 
 /// The formula that should have been printed, with the judgement on it.
@@ -348,6 +359,8 @@ pub struct Judgement {
     pub suggestions: Vec<Suggestion>,
     /// Which diagnosis was asked for and cut short, and why; what there is of it is not all.
     pub unfinished: Option<String>,
+    /// What doubles lose: the mean over the links, and the worst.
+    pub lost_bits: Option<LostBits>,
     /// The time it took, in microseconds.
     pub micros: u64,
     /// What stands in the way of a verdict, with its place in the file, where no link says it.

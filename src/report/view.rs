@@ -245,6 +245,7 @@ impl Builder {
         let mut facts = facts(j.strength, j.bits, only.and_then(|l| l.residual), j.states);
         facts.extend(only.and_then(failing_states));
         facts.extend(exactness(j));
+        facts.extend(j.lost_bits.map(text::lost_bits));
         let reason = j.reason.as_ref().or_else(|| only.and_then(|l| l.reason.as_ref()));
         Equation {
             anchor: anchor.to_owned(),

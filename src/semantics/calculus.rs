@@ -7,7 +7,7 @@ use super::elaborate::{Elaborator, Typed};
 use super::error::{Error, Result};
 use super::juxtaposition::Item;
 use super::name::spelling;
-use super::scope::Basis;
+use super::scope::{Basis, EntryKind};
 use super::statement::{MOST_ASSIGNMENTS, assignments, too_many};
 use super::units::Dimension;
 use super::value::{self, Matrix, Value};
@@ -295,6 +295,16 @@ impl Elaborator<'_> {
         found
     }
 
+    /// What stands in the scripts of a name are letters, not quantities.
+    fn collect_letters(&self, name: &Node, bound: &[String], found: &mut Vec<String>) {
+        letters(name, &mut |s| {
+            let open = self.scope.index(s).is_some() && self.index_value(s).is_none();
+            if open && !bound.contains(s) && !found.contains(s) {
+                found.push(s.clone());
+            }
+        });
+    }
+
     fn collect_indices(&self, node: &Node, bound: &mut Vec<String>, found: &mut Vec<String>) {
         if let Kind::Symbol(s) = &node.kind
             && self.scope.index(s).is_some()
@@ -304,11 +314,32 @@ impl Elaborator<'_> {
         {
             found.push(s.clone());
         }
-        if let Some((entry, _)) = self.entry(node) {
+        if let Some(entry) = self.scope.get(&super::scope::pattern_of(self.scope, node)) {
             let open = |letter: &&String| self.index_value(letter).is_none() && !bound.contains(letter);
             for letter in entry.hidden.iter().filter(open) {
                 if !found.contains(letter) {
                     found.push(letter.clone());
+                }
+            }
+            self.collect_letters(node, bound, found);
+            if let EntryKind::Same(other) = &entry.kind {
+                self.collect_indices(other, bound, found);
+            }
+            return;
+        }
+        if let Kind::Scripts { base, primes, sub: Some(sub), sup } = &node.kind
+            && !matches!(base.kind, Kind::BigOp(_))
+        {
+            match sup {
+                Some(sup) => {
+                    let (base, sub) = (base.clone(), Some(sub.clone()));
+                    let name = Kind::Scripts { base, primes: *primes, sub, sup: None };
+                    self.collect_indices(&Node::new(name, node.span.clone()), bound, found);
+                    return self.collect_indices(sup, bound, found);
+                }
+                None => {
+                    self.collect_indices(base, bound, found);
+                    return self.collect_letters(sub, bound, found);
                 }
             }
         }
@@ -338,6 +369,14 @@ impl Elaborator<'_> {
 /// Whether an operator runs through indices.
 fn is_sum(node: &Node) -> bool {
     matches!(node.kind, Kind::BigOp(BigOp::Sum | BigOp::Product))
+}
+
+/// Visits the letters of a name, those in its scripts included.
+fn letters(node: &Node, visit: &mut dyn FnMut(&String)) {
+    if let Kind::Symbol(s) = &node.kind {
+        visit(s);
+    }
+    node.children().into_iter().for_each(|child| letters(child, visit));
 }
 
 /// The nodes directly below a node, products laid flat so that what follows a big operator stands behind it.

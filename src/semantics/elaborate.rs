@@ -6,6 +6,7 @@ use crate::latex::to_latex;
 
 use super::error::{Error, Result};
 use super::name::spelling;
+use super::quaternion;
 use super::scope::{Entry, EntryKind, Scope, pattern};
 use super::value::{self, Matrix, Value};
 use super::world::{Facts, Joint, Quantity, Role, World};
@@ -106,12 +107,15 @@ impl<'w> Elaborator<'w> {
                 Sign::MinusPlus => self.upper,
             };
             let sign = if minus { "-" } else { "+" };
-            let graph = &mut self.world.graph;
             sum = Some(match sum {
-                None if minus => Typed::new(value::negate(graph, &next.value), format!("-{}", next.text)),
+                None if minus => {
+                    Typed::new(value::negate(&mut self.world.graph, &next.value), format!("-{}", next.text))
+                }
                 None => next,
                 Some(acc) => {
                     let span = term.sign_span.clone().map_or(term.node.span.clone(), |s| s.start..term.node.span.end);
+                    let (acc, next) = self.alike(acc, next);
+                    let graph = &mut self.world.graph;
                     let value = add_or_zero(graph, &acc.value, &next.value, minus, &span)?;
                     Typed::new(value, format!("{} {sign} {}", acc.text, next.text))
                 }
@@ -121,6 +125,16 @@ impl<'w> Elaborator<'w> {
         let parts = || terms.iter().map(|t| to_latex(&t.node)).zip(values).collect();
         self.world.join(|| Joint { role: Role::Sum, parts: parts() });
         Ok(if terms.len() > 1 { Typed::new(sum.value, format!("({})", sum.text)) } else { sum })
+    }
+
+    /// Terms that are to be added: among quaternions a number may be added to a vector.
+    fn alike(&mut self, a: Typed, b: Typed) -> (Typed, Typed) {
+        if self.scope.quaternions
+            && let Some((x, y)) = quaternion::met(&mut self.world.graph, &a.value, &b.value)
+        {
+            return (Typed::new(x, a.text), Typed::new(y, b.text));
+        }
+        (a, b)
     }
 
     fn tuple(&mut self, items: &[Node]) -> Result<Typed> {
@@ -360,7 +374,13 @@ impl<'w> Elaborator<'w> {
                 Some(v) => Value::Scalar(self.world.graph.int(v)),
                 None => return Err(Error::undeclared(format!("the index {name} has no value here"), &node.span)),
             },
-            EntryKind::Same(other) => return self.alias(&name, other, &node.span).map(Some),
+            EntryKind::Same(other) => {
+                let depth = self.indices.len();
+                self.indices.extend(entry.letters.iter().cloned().zip(indices));
+                let value = self.alias(&name, other, &node.span);
+                self.indices.truncate(depth);
+                return value.map(Some);
+            }
             EntryKind::Component { of, basis, axis } => {
                 let whole = self.alias(&name, of, &node.span)?;
                 let component = self.component(&whole, basis, *axis, &node.span)?;
@@ -419,6 +439,12 @@ impl<'w> Elaborator<'w> {
         let graph = &mut self.world.graph;
         let integer = graph.as_rational(n).filter(|(_, d)| *d == 1).and_then(|(n, _)| i32::try_from(n).ok());
         let value = match (&base.value, integer) {
+            (Value::Vector(_) | Value::Quaternion(..), _) if self.scope.quaternions => {
+                match quaternion::parts(graph, &base.value) {
+                    Some(parts) => quaternion::power(graph, &parts, n, span)?,
+                    None => return Err(Error::shape("no quaternion stands here", span)),
+                }
+            }
             (Value::Scalar(x), _) => Value::Scalar(graph.pow(*x, n)),
             (Value::Vector(v), Some(2)) => Value::Scalar(value::dot3(graph, v, v)),
             (Value::Matrix(m), Some(-1)) => Value::Matrix(value::inverse(graph, m, span)?),

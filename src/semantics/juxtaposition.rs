@@ -12,13 +12,14 @@
 //!
 //! Visible operators: cross products first, then dots and slashes from left to right.
 
-use crate::expr::Func;
+use crate::expr::{Expr, Func};
 use crate::latex::ast::{BigOp, Kind, Node, ProductOp, Span};
 use crate::latex::to_latex;
 
 use super::calculus::Derivative;
 use super::elaborate::{Elaborator, Typed};
 use super::error::{Error, Result};
+use super::quaternion;
 use super::value::{self, Value};
 use super::world::{Joint, Role};
 
@@ -102,6 +103,14 @@ impl Elaborator<'_> {
 
     fn juxtaposed(&mut self, a: Typed, b: Typed, span: &Span) -> Result<Typed> {
         let (left, right) = self.aligned(&a.value, &b.value, span)?;
+        if self.scope.quaternions
+            && !matches!((&left, &right), (Value::Scalar(_), _) | (_, Value::Scalar(_)))
+            && let Some(x) = quaternion::parts(&mut self.world.graph, &left)
+            && let Some(y) = quaternion::parts(&mut self.world.graph, &right)
+        {
+            let value = quaternion::product(&mut self.world.graph, &x, &y);
+            return Ok(Typed::new(value, format!("({} {})", a.text, b.text)));
+        }
         let value = value::multiply(&mut self.world.graph, &left, &right, span)?;
         Ok(Typed::new(value, format!("({} {})", a.text, b.text)))
     }
@@ -150,6 +159,11 @@ impl Elaborator<'_> {
         let Some(Item::Factor(node)) = items.first() else {
             return Err(Error::unsupported("a factor is missing here", &span_of(items)));
         };
+        if self.scope.quaternions
+            && let Some(found) = self.taken_apart(items)?
+        {
+            return Ok(found);
+        }
         let (head, sup) = head_and_power(node);
         match &head.kind {
             Kind::Function(name) => return self.function(name, sup, node, &items[1..]).map(|(t, n)| (t, n + 1)),
@@ -206,7 +220,13 @@ impl Elaborator<'_> {
         if let Some(derivative) = self.derivative(num, den) {
             return self.apply_derivative(derivative, node, rest);
         }
-        let (n, d) = (self.value(num)?, self.value(den)?);
+        let (n, mut d) = (self.value(num)?, self.value(den)?);
+        if self.scope.quaternions && matches!(d.value, Value::Vector(_) | Value::Quaternion(..)) {
+            let graph = &mut self.world.graph;
+            let parts = quaternion::parts(graph, &d.value);
+            d.value = parts.map_or(d.value, |parts| quaternion::inverse(graph, &parts));
+            return self.juxtaposed(n, d, &node.span).map(|t| (t, 0));
+        }
         let value = value::divide(&mut self.world.graph, &n.value, &d.value, &den.span)?;
         let quotient = Typed::new(value, format!("({} / {})", n.text, d.text));
         self.with_power(quotient, power, &node.span).map(|t| (t, 0))
@@ -233,10 +253,12 @@ impl Elaborator<'_> {
             return Err(Error::unsupported(format!("\\{name} has no argument here"), &node.span));
         }
         let argument = self.items(&rest[..used])?;
-        self.world.join(|| Joint {
-            role: Role::Argument(name.to_owned()),
-            parts: vec![(latex_of(&rest[..used]), argument.value.clone())],
-        });
+        if !matches!(name, "max" | "min") {
+            self.world.join(|| Joint {
+                role: Role::Argument(name.to_owned()),
+                parts: vec![(latex_of(&rest[..used]), argument.value.clone())],
+            });
+        }
         let inverse = matches!(sup.map(|s| &s.kind), Some(Kind::Sum(t)) if t.len() == 1 && is_minus_one(&t[0]));
         let name = if inverse { format!("arc{name}") } else { name.to_owned() };
         let result = self.call(&name, argument, &node.span)?;
@@ -290,6 +312,9 @@ impl Elaborator<'_> {
             let det = value::determinant(&mut self.world.graph, m);
             return Ok(Typed::new(Value::Scalar(det), format!("det({})", argument.text)));
         }
+        if let (Value::Tuple(items), "max" | "min") = (&argument.value, name) {
+            return self.extreme(items, name == "max", span);
+        }
         // What Kenzan does not know must not look like a mistake of the author's: the maximum of a tuple, exp of a matrix.
         if !FUNCTIONS.contains(&name) || name == "exp" && matches!(argument.value, Value::Matrix(_)) {
             let of = argument.value.shape();
@@ -322,6 +347,26 @@ impl Elaborator<'_> {
             }
         };
         Ok(Typed::new(Value::Scalar(value), format!("{name}({})", argument.text)))
+    }
+
+    /// The largest or least of some numbers: of two, half the sum of them and of their distance.
+    fn extreme(&mut self, items: &[Value], largest: bool, span: &Span) -> Result<Typed> {
+        let mut extreme: Option<Expr> = None;
+        for item in items {
+            let e = self.scalar(&Typed::new(item.clone(), ""), span)?;
+            let graph = &mut self.world.graph;
+            extreme = Some(match extreme {
+                None => e,
+                Some(acc) => {
+                    let (sum, difference, two) = (graph.add(acc, e), graph.sub(acc, e), graph.int(2));
+                    let distance = graph.call(Func::Abs, difference);
+                    let twice = if largest { graph.add(sum, distance) } else { graph.sub(sum, distance) };
+                    graph.div(twice, two)
+                }
+            });
+        }
+        let e = extreme.ok_or_else(|| Error::unsupported("the largest of nothing", span))?;
+        Ok(Typed::new(Value::Scalar(e), if largest { "max" } else { "min" }))
     }
 
     fn big_operator(&mut self, op: BigOp, node: &Node, rest: &[Item]) -> Result<Typed> {

@@ -107,12 +107,14 @@ impl Elaborator<'_> {
         rest: &[Item],
         span: &Span,
     ) -> Result<Typed> {
-        if to.is_some_and(|to| !matches!(&to.kind, Kind::Symbol(s) if s == "t")) {
-            return Err(Error::unsupported("only integrals up to the time t are evaluated yet", span));
-        }
+        let from = match to {
+            Some(Node { kind: Kind::Symbol(s), .. }) if s != "t" => self.beginning(to, span)?,
+            Some(Node { kind: Kind::Symbol(_), .. }) | None => from.cloned(),
+            Some(to) => self.beginning(Some(to), span)?,
+        };
         let inner = self.items(rest)?;
         if let Some(from) = from {
-            let begin = self.value(from)?;
+            let begin = self.value(&from)?;
             self.world.history.begin = Some(self.scalar(&begin, span)?);
         }
         let Some(dt) = self.world.graph.find("dt") else { return Err(without_differential(span)) };
@@ -129,6 +131,20 @@ impl Elaborator<'_> {
         } else {
             Ok(Typed::new(value, format!("∫({})", inner.text)))
         }
+    }
+
+    /// The time at which an integral up to something that depends on time begins: t_0, where the notes have it.
+    fn beginning(&mut self, to: Option<&Node>, span: &Span) -> Result<Option<Node>> {
+        let end = to.map(|to| self.value(to)).transpose()?;
+        let symbols = end.map(|end| self.world.graph.symbols(&end.value.components())).unwrap_or_default();
+        if !symbols.iter().any(|s| self.world.graph.info(*s).of_t) {
+            return Err(Error::unsupported("only integrals along the motion are evaluated yet", span));
+        }
+        let node = |kind| Box::new(Node::new(kind, span.clone()));
+        let (base, zero) = (node(Kind::Symbol("t".into())), node(Kind::Number("0".into())));
+        let kind = Kind::Scripts { base, primes: 0, sub: Some(zero), sup: None };
+        let name = Node::new(kind, span.clone());
+        Ok(self.is_declared(&name).then_some(name))
     }
 
     /// The value of something at the start of the motion, `(X)_0`.

@@ -1,6 +1,6 @@
 //! Which symbols are declared where an equation stands.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
 use crate::document::{Arguments, BasisDeclaration, Declarations, Problem, Spanned, SymbolDeclaration};
@@ -74,6 +74,8 @@ pub struct Entry {
     pub integer: bool,
     /// The indices it has one value for each of that are not printed: the j of \\sum m r^2.
     pub hidden: Vec<String>,
+    /// The indices that its name prints, in their order.
+    pub letters: Vec<String>,
     /// The spellings of the arguments that may be printed behind it, in brackets.
     pub arguments: Vec<String>,
 }
@@ -114,6 +116,8 @@ pub struct Scope {
     bases: Vec<Arc<Basis>>,
     /// Premises that hold throughout the section, in LaTeX with their place in the file.
     pub assume: Vec<Spanned<String>>,
+    /// Whether vectors side by side are multiplied as quaternions.
+    pub quaternions: bool,
     /// Whether the section is written in natural units, so that dimensions say nothing.
     pub natural_units: bool,
 }
@@ -222,6 +226,7 @@ impl Scope {
             let Some(node) = parse_name(name, problems) else { continue };
             let pattern = pattern(&node, &|letter| each.iter().any(|e| e == letter));
             let printed = |letter: &String| self::pattern(&node, &|l| l == letter).contains('#');
+            let letters = each.iter().filter(|letter| printed(letter)).cloned().collect();
             let hidden = each.iter().filter(|letter| !printed(letter)).cloned().collect();
             let Some(kind) = entry_kind(d, position, problems) else { continue };
             let entry = Entry {
@@ -234,13 +239,44 @@ impl Scope {
                 declared: name.span.start,
                 integer: d.integer,
                 hidden,
+                letters,
                 arguments: arguments.clone(),
             };
-            self.insert(pattern, entry);
+            self.insert(pattern.clone(), entry);
+            if self.is_circular(&pattern) {
+                let message = format!("{} is another notation of itself", name.value);
+                problems.push(Problem::error("kenzan::name", message, name.span.clone()));
+                self.entries.remove(&pattern);
+            }
         }
     }
 
+    /// The declared names in an expression; the letters within a name are none.
+    fn collect_names(&self, node: &Node, found: &mut HashSet<String>) {
+        let pattern = pattern_of(self, node);
+        if self.get(&pattern).is_some() {
+            found.insert(pattern);
+            return;
+        }
+        node.children().into_iter().for_each(|child| self.collect_names(child, found));
+    }
+
+    /// Whether what a name stands for leads back to it.
+    fn is_circular(&self, pattern: &str) -> bool {
+        let mut found = HashSet::new();
+        let mut queue = vec![pattern.to_owned()];
+        while let Some(name) = queue.pop() {
+            let Some(entry) = self.get(&name) else { continue };
+            let (EntryKind::Same(node) | EntryKind::Component { of: node, .. }) = &entry.kind else { continue };
+            let mut names = HashSet::new();
+            self.collect_names(node, &mut names);
+            queue.extend(names.into_iter().filter(|name| found.insert(name.clone())));
+        }
+        found.contains(pattern)
+    }
+
     fn insert(&mut self, pattern: String, entry: Entry) {
+        self.quaternions |= super::quaternion::is_operator(&entry);
         self.entries.insert(pattern, Arc::new(entry));
     }
 
@@ -267,6 +303,7 @@ impl Entry {
             declared: 0,
             integer: false,
             hidden: Vec::new(),
+            letters: Vec::new(),
             arguments: Vec::new(),
         }
     }

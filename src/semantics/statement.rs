@@ -8,6 +8,7 @@ use super::elaborate::Elaborator;
 use super::error::{Error, Result};
 use super::geometric::{as_equation, is_geometric};
 use super::juxtaposition::Item;
+use super::quaternion;
 use super::scope::Scope;
 use super::value::{Matrix, Value};
 use super::world::World;
@@ -121,6 +122,7 @@ impl Builder {
 
     fn chain(&mut self, first: Option<&Node>, links: &[Link], node: &Node) -> Result<()> {
         match first {
+            Some(first @ Node { kind: Kind::Annotated { .. }, .. }) if holds_relation(first) => self.add(first)?,
             Some(first) if !is_words(first) => self.begin(first),
             _ if self.out.last.is_none() => {
                 return Err(Error::unsupported("a relation with nothing before it", &node.span)
@@ -131,7 +133,7 @@ impl Builder {
         }
         for (k, link) in links.iter().enumerate() {
             if separates(links, k) {
-                self.begin(&link.rhs);
+                self.add(&link.rhs)?;
                 continue;
             }
             if matches!(link.rhs.kind, Kind::Empty) || is_words(&link.rhs) && !is_constant(&link.rhs) {
@@ -301,6 +303,7 @@ impl TypedLink {
 fn component_name(value: &Value, k: usize) -> String {
     match value {
         Value::Vector(_) => format!("{} component (inertial)", ["x", "y", "z"][k % 3]),
+        Value::Quaternion(..) => ["scalar part", "x component", "y component", "z component"][k % 4].to_owned(),
         Value::Matrix(m) if m.cols == 1 => format!("row {}", k + 1),
         Value::Matrix(m) => format!("entry {},{}", k / m.cols + 1, k % m.cols + 1),
         _ => format!("part {}", k + 1),
@@ -340,6 +343,20 @@ pub fn understand(world: &mut World, scope: &Scope, clause: &Clause, upper: bool
     Ok(link)
 }
 
+/// The value of an expression; where it has free indices, the tuple of its values for all of them.
+///
+/// # Errors
+/// Those of understanding it.
+pub fn every_value(world: &mut World, scope: &Scope, node: &Node) -> Result<Value> {
+    let letters = Elaborator::new(world, scope, Vec::new(), true).unbound_indices(&[Item::Factor(node)]);
+    if letters.is_empty() {
+        return Elaborator::new(world, scope, Vec::new(), true).value(node).map(|typed| typed.value);
+    }
+    let each = assignments(scope, &letters, &node.span)?.into_iter();
+    let values = each.map(|indices| Ok(Elaborator::new(world, scope, indices, true).value(node)?.value));
+    values.collect::<Result<_>>().map(Value::Tuple)
+}
+
 /// Brings the sides of a link to one shape: 0 stands for the null of any shape, a vector beside a column is meant by
 /// its components.
 fn meet(elaborator: &mut Elaborator, lhs: Value, rhs: Value, clause: &Clause) -> Result<(Value, Value)> {
@@ -350,6 +367,10 @@ fn meet(elaborator: &mut Elaborator, lhs: Value, rhs: Value, clause: &Clause) ->
             let column = column_of(&rhs);
             (lhs, column)
         }
+        _ => (lhs, rhs),
+    };
+    let (lhs, rhs) = match quaternion::met(&mut elaborator.world.graph, &lhs, &rhs) {
+        Some(met) if elaborator.scope.quaternions && !is_null(elaborator, &lhs) && !is_null(elaborator, &rhs) => met,
         _ => (lhs, rhs),
     };
     let span = match &clause.rhs {
@@ -388,6 +409,10 @@ fn meet(elaborator: &mut Elaborator, lhs: Value, rhs: Value, clause: &Clause) ->
             ))
         }
     })
+}
+
+fn is_null(elaborator: &Elaborator, value: &Value) -> bool {
+    value.is_zero_scalar(&elaborator.world.graph)
 }
 
 /// The column that a tuple of numbers beside a vector stands for; anything else as it is.

@@ -14,7 +14,7 @@ use super::super::random::Decimal;
 use super::super::sampling::Sampler;
 use super::super::system::{Source, State};
 use super::super::verdict::{Certificate, Enclosure, ExactValue};
-use super::{Claimed, bracket};
+use super::{Claimed, allowed, bracket};
 use crate::expr::{Expr, Graph, Node, SymId};
 use crate::number::{Func, Interval, Number};
 
@@ -76,16 +76,24 @@ impl<'s, 'c> Exact<'s, 'c> {
         let world = &self.sampler.claim.world;
         let mut known = BTreeMap::new();
         let mut shown = Vec::new();
+        let mut at = vec![Interval::invalid(BITS); self.sampler.system.symbols];
         for (source, value) in self.sampler.system.free.iter().zip(&state.free) {
-            let (value, text) = match self.angles.contains(&source.symbol) {
+            let (value, enclosure, text) = match self.angles.contains(&source.symbol) {
                 true => angle(source, *value, denominator)?,
                 false => number(*value),
             };
+            at[source.symbol.index()] = enclosure;
             known.insert(source.symbol, value);
             let (symbol, idle) = (world.tex(source.symbol), idle.contains(&source.symbol));
             shown.push(ExactValue { symbol, value: text, idle });
         }
         let solved = self.solve(&mut known)?;
+        for (symbol, value) in &known {
+            if let Value::Number(x) = value {
+                at[symbol.index()] = Interval::from_rational(x, BITS);
+            }
+        }
+        allowed(self.sampler, &at, BITS).ok()?;
         Some(Certificate { bits: None, state: shown, solved, differences: self.differences(&known, claimed)? })
     }
 
@@ -165,14 +173,14 @@ fn shown(name: Option<String>, x: &Rational, idle: bool) -> Option<Enclosure> {
     Some(Enclosure { name, low: text.clone(), high: text, idle })
 }
 
-fn number(value: Decimal) -> (Value, String) {
+fn number(value: Decimal) -> (Value, Interval, String) {
     let value = Rational::from((value.num, value.den));
-    let text = value.to_string();
-    (Value::Number(value), text)
+    let (enclosure, text) = (Interval::from_rational(&value, BITS), value.to_string());
+    (Value::Number(value), enclosure, text)
 }
 
 /// The angle near a given one whose half has a tangent of a given denominator, if it is in its range.
-fn angle(source: &Source, near: Decimal, denominator: u32) -> Option<(Value, String)> {
+fn angle(source: &Source, near: Decimal, denominator: u32) -> Option<(Value, Interval, String)> {
     let tangent = (near.to_f64() / 2.0).tan() * f64::from(denominator);
     let t = Rational::from((Rational::from_f64(tangent.round())?.numer().clone(), denominator));
     let half = Interval::from_rational(&t, BITS).apply(Func::Atan);
@@ -185,7 +193,7 @@ fn angle(source: &Source, near: Decimal, denominator: u32) -> Option<(Value, Str
     let length = Rational::from(1 + &square);
     let (sin, cos) = (Rational::from(&t * 2) / &length, (1 - square) / length);
     let text = if t.is_zero() { "0".into() } else { format!("2 arctan({t})") };
-    Some((Value::Angle(sin, cos), text))
+    Some((Value::Angle(sin, cos), whole, text))
 }
 
 fn rational(values: &Values, e: Expr) -> Option<&Rational> {
