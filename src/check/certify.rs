@@ -117,7 +117,8 @@ fn by_intervals(
     idle: &[SymId],
 ) -> Result<Certificate, Uncertified> {
     let mut why = Uncertified::Open(0);
-    for bits in PRECISIONS {
+    let deadline = sampler.deadline();
+    for bits in PRECISIONS.into_iter().take_while(|_| !deadline.has_passed()) {
         match attempt(sampler, state, claimed, idle, bits) {
             // A higher precision changes nothing of these.
             Err(e @ (Uncertified::Singular | Uncertified::Contradiction | Uncertified::Dependent(_))) => return Err(e),

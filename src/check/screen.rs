@@ -6,7 +6,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::expr::{Expr, Node as Op, SymId};
+use crate::expr::{Deadline, Expr, Node as Op, SymId};
 use crate::latex::ast::{Node, Rel};
 use crate::number::{Df64, Number};
 use crate::semantics::{self, Clause, Side, World};
@@ -72,7 +72,7 @@ impl<'b> Screen<'b> {
         options: &Options,
         related: Related,
     ) -> Option<Self> {
-        let source = Source::new(book, index, version);
+        let source = Source::new(book, index, version).until(Deadline::after(options.budget));
         let entry = &book.entries[index];
         let clauses: Vec<Clause> = clauses.iter().filter_map(|c| sensible(&source, c)).collect();
         let claim = source.claim_of(&clauses, &entry.scope, known, related).ok();

@@ -20,7 +20,7 @@ use super::change::{Change, at};
 use super::edits::{Found, Walk};
 use super::lexicon::Lexicon;
 use super::likeness;
-use super::mutants::{EditKind, Reach, replaced_at};
+use super::mutants::{EditKind, LONGEST, Reach, replaced_at};
 use super::names::Name;
 use super::near::Near;
 use super::shape::times;
@@ -53,8 +53,11 @@ pub fn suggestions(book: &Book, index: usize, judgement: &Judgement, options: &O
 /// The formulas near one that stands in the place of an equation and fails, the likeliest first. `links` is the
 /// judgement on it.
 pub fn meant(book: &Book, index: usize, tree: &Node, links: &[LinkJudgement], options: &Options) -> Vec<Suggestion> {
-    let mut printed = book.clone();
     let latex = to_latex(tree);
+    if latex.len() > LONGEST {
+        return Vec::new();
+    }
+    let mut printed = book.clone();
     printed.entries[index].reading = Some(crate::check::Formula { latex, tree: Ok(tree.clone()) });
     printed.entries[index].correction = None;
     let Some(trial) = Trial::new(&printed, index, Version::Printed, links, options) else { return Vec::new() };
