@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use crate::document::{Span, Spanned};
-use crate::expr::{Expr, Graph, Node, SymId};
+use crate::expr::{Deadline, Expr, Graph, Node, SymId};
 use crate::latex::{
     ParseError,
     ast::{self, Rel},
@@ -104,12 +104,19 @@ pub struct Source<'b> {
     pub version: Version,
     /// Which of its links (from 0), where it has premises of its own.
     pub link: Option<usize>,
+    /// When the time for it is used up.
+    pub deadline: Deadline,
 }
 
 impl<'b> Source<'b> {
     /// For an equation as a whole.
     pub fn new(book: &'b Book, index: usize, version: Version) -> Self {
-        Source { book, index, version, link: None }
+        Source { book, index, version, link: None, deadline: Deadline::NEVER }
+    }
+
+    /// With a limit of the time for it.
+    pub fn until(self, deadline: Deadline) -> Self {
+        Source { deadline, ..self }
     }
 
     /// For one of its links.
@@ -137,7 +144,7 @@ impl<'b> Source<'b> {
         let [clause, more @ ..] = clauses else {
             return Err(Obstacle::Link(Error::unsupported("nothing is printed here", &(0..0))));
         };
-        let mut world = World::new();
+        let mut world = World::until(self.deadline);
         // A premise from another section that speaks of the same basis means this one.
         Elaborator::new(&mut world, scope, Vec::new(), true).build_bases();
         let typed = self.branches(&mut world, scope, clause).map_err(Obstacle::Link)?;
@@ -178,6 +185,7 @@ impl<'b> Source<'b> {
             premises.keep_related(&world.graph, &targets, mentioned);
         }
         premises.close_in_time(&mut world.graph, &targets);
+        world.check(&clause.lhs.span).map_err(Obstacle::Link)?;
         let (lhs_text, rhs_text) = typed.first().map(|l| (l.lhs_text.clone(), l.rhs_text.clone())).unwrap_or_default();
         let rel = clause.rel;
         Ok(Claim { world, rel, branches, premises, solve, small, lhs_text, rhs_text, condition, bound, ordered })
@@ -266,9 +274,10 @@ impl<'b> Source<'b> {
                 stated.ordered.push((clause.rel, pair.residual));
                 continue;
             }
-            stated.equal.push((pair.lhs, pair.rhs));
+            let stands = (pair.lhs, pair.rhs);
+            stated.equal.push(stands);
             let rates = in_time(world, pair).into_iter().filter(|pair| !pair.start);
-            stated.equal.extend(rates.map(|pair| (pair.lhs, pair.rhs)));
+            stated.equal.extend(rates.map(|pair| (pair.lhs, pair.rhs)).filter(|rate| *rate != stands));
         }
         Ok(())
     }

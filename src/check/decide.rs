@@ -45,7 +45,9 @@ fn finding<N: Real>(value: &PairValue<N>, scale_log2: f64) -> Finding {
         return Finding::Differ((size - scale_log2).exp2());
     }
     let bits = scale_log2 - value.error_log2().max(size);
-    if scale_log2 == f64::NEG_INFINITY || bits >= LEAST_BITS { Finding::Agree(bits.min(1e6)) } else { Finding::Open }
+    // Where nothing is left of the terms they must be zero, not too small for the numbers.
+    let zero = scale_log2 == f64::NEG_INFINITY && value.error_log2() == f64::NEG_INFINITY;
+    if zero || bits >= LEAST_BITS { Finding::Agree(bits.min(1e6)) } else { Finding::Open }
 }
 
 /// The findings of all pairs of a branch; vectors are measured by their largest component.
@@ -132,7 +134,11 @@ fn decide<N: Real>(
 ) -> LinkJudgement {
     let mut tally = Tally { branch_hit: vec![false; sampler.claim.branches.len()], ..Tally::default() };
     let mut work = Workspace::default();
+    let deadline = sampler.deadline();
     for (k, state) in states.iter().enumerate() {
+        if deadline.has_passed() {
+            break;
+        }
         match sampler.evaluate::<N>(state, cx, &mut work) {
             Some(branches) => tally.add(k, &branches),
             None => tally.open += 1,
@@ -150,6 +156,8 @@ fn decide<N: Real>(
             judgement.counterexample = Some(sampler.counterexample(&small.state, cx, pair, value, &small.idle));
             proof(&mut judgement, sampler, &small.state, None, &small.idle, options);
         }
+    } else if deadline.has_passed() {
+        judgement.reason = Some(deadline.used_up("evaluating both sides"));
     } else if let Some(branch) = tally.branch_hit.iter().position(|hit| !hit).filter(|_| tally.open == 0) {
         let sign = if branch == 0 { "upper" } else { "lower" };
         judgement.verdict = Verdict::Fails;
@@ -249,7 +257,11 @@ pub fn inequality(mut judgement: LinkJudgement, mut claim: Claim, name: &str, op
     let mut condition_work = Workspace::default();
     let mut seen = [0usize; 2];
     let mut example = None;
+    let deadline = sampler.deadline();
     for state in &states {
+        if deadline.has_passed() {
+            break;
+        }
         let Some(branches) = sampler.evaluate::<Df64>(state, &(), &mut work) else { continue };
         let Some(values) = sampler.system.refine::<Df64>(state, &()) else { continue };
         let inputs: Vec<_> = tape.inputs().iter().map(|s| values[s.index()].clone()).collect();
@@ -278,7 +290,11 @@ pub fn inequality(mut judgement: LinkJudgement, mut claim: Claim, name: &str, op
     judgement.strength = Some(Strength::Numeric);
     judgement.inexact = Some("a prime field has no order".into());
     judgement.verdict = if judgement.failing_states > 0 { Verdict::Fails } else { Verdict::Holds };
-    if judgement.states == 0 || condition.is_some() && seen.contains(&0) {
+    if judgement.failing_states == 0 && deadline.has_passed() {
+        judgement.verdict = Verdict::Undecided;
+        judgement.strength = None;
+        judgement.reason = Some(deadline.used_up("evaluating both sides"));
+    } else if judgement.states == 0 || condition.is_some() && seen.contains(&0) {
         judgement.verdict = Verdict::Undecided;
         judgement.strength = None;
         judgement.reason = Some("the states lie all on one side of the condition: widen the ranges".into());

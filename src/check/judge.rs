@@ -1,9 +1,10 @@
 //! The judgement on an equation: each link of its chain is claimed, evaluated and decided; the worst decides.
 
 use std::collections::HashSet;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use crate::document::Problem;
+use crate::expr::Deadline;
 use crate::latex::ast::{Kind, Node, Rel};
 use crate::semantics::{self, Clause, ErrorKind, Scope, Side, Statement};
 
@@ -28,11 +29,14 @@ pub struct Options {
     /// Whether a judgement is to say more than its verdict rests on: certificates of counterexamples (feature `rug`), the
     /// bits that doubles lose.
     pub evidence: bool,
+    /// The time that each stage may take for an equation: judging it, judging its correction, trying its mutants,
+    /// searching what was meant. `None` for no limit.
+    pub budget: Option<Duration>,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Options { seed: 1, states: 64, precision: None, evidence: true }
+        Options { seed: 1, states: 64, precision: None, evidence: true, budget: None }
     }
 }
 
@@ -94,6 +98,7 @@ pub fn blank(book: &Book, index: usize) -> Judgement {
         sensitivity: None,
         suggestions: Vec::new(),
         lost_bits: None,
+        unfinished: None,
         micros: 0,
         problem: None,
     }
@@ -144,7 +149,7 @@ pub(super) fn judge_version(book: &Book, index: usize, version: Version, options
     let entry = &book.entries[index];
     if let Some(circle) = book.circle(index) {
         // The document's own problems say where.
-        let reason = format!("the premises go in a circle: {}", circle.join(" → "));
+        let reason = format!("the premises go in a circle: {circle}");
         return Outcome::without_links(Verdict::Undecided, reason, None);
     }
     let statement = match book.statement(index, version) {
@@ -159,14 +164,16 @@ pub(super) fn judge_version(book: &Book, index: usize, version: Version, options
             return Outcome::without_links(verdict, reason, Some(trouble::unclear(entry, version, &unclear)));
         }
     };
-    judge_statement(&Source::new(book, index, version), &statement, options)
+    let source = Source::new(book, index, version).until(Deadline::after(options.budget));
+    judge_statement(&source, &statement, options)
 }
 
 /// Judges the links of another formula in the place of an equation; none where it cannot be taken apart.
 pub fn judge_tree(book: &Book, index: usize, tree: &Node, options: &Options) -> Vec<LinkJudgement> {
     let options = Options { evidence: false, ..options.clone() };
+    let source = Source::new(book, index, Version::Printed).until(Deadline::after(options.budget));
     match book.statement_of(index, tree) {
-        Ok(statement) => judge_statement(&Source::new(book, index, Version::Printed), &statement, &options).links,
+        Ok(statement) => judge_statement(&source, &statement, &options).links,
         Err(_) => Vec::new(),
     }
 }
@@ -417,11 +424,16 @@ fn obstructed(mut judgement: LinkJudgement, source: &Source, clause: &Clause, ob
 }
 
 /// A message with the piece of LaTeX it is about.
+/// The most of a formula that is quoted in a reason, in bytes.
+const LONGEST_PIECE: usize = 120;
+
 fn place(latex: &str, message: &str, span: &std::ops::Range<usize>, help: Option<&str>) -> String {
     let piece = latex.get(span.clone()).unwrap_or_default().trim();
     let mut text = message.to_owned();
     if !piece.is_empty() && !message.contains(piece) {
-        text.push_str(&format!(", at `{piece}`"));
+        let end = piece.floor_char_boundary(LONGEST_PIECE);
+        let more = if end < piece.len() { " …" } else { "" };
+        text.push_str(&format!(", at `{}{more}`", &piece[..end]));
     }
     if let Some(help) = help {
         text.push_str(&format!(" ({help})"));

@@ -4,6 +4,7 @@ mod book;
 #[cfg(feature = "rug")]
 mod certify;
 mod choice;
+mod circle;
 mod claim;
 mod decide;
 pub mod dimension;

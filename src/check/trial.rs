@@ -7,7 +7,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::expr::{SymId, Tape, Workspace};
+use crate::expr::{Deadline, SymId, Tape, Workspace};
 use crate::latex::ast::{Node, Rel};
 use crate::number::{Df64, Number, Tracked};
 use crate::semantics::{self, Clause, ErrorKind, Side, Statement, World};
@@ -85,7 +85,7 @@ impl<'b> Trial<'b> {
         links: &[LinkJudgement],
         options: &Options,
     ) -> Option<Self> {
-        let source = Source::new(book, index, version);
+        let source = Source::new(book, index, version).until(Deadline::after(options.budget));
         let statement = book.statement(index, version).ok()?;
         let entry = &book.entries[index];
         let solution = !entry.list(|a| &a.solves).is_empty();
@@ -103,6 +103,11 @@ impl<'b> Trial<'b> {
         // Whether another formula fails is asked thousands of times, and needs no proof.
         let options = Options { evidence: false, ..options.clone() };
         Some(Trial { source, options, statement, links: prepared, solution })
+    }
+
+    /// When the time for trying formulas is used up.
+    pub fn deadline(&self) -> Deadline {
+        self.source.deadline
     }
 
     /// Judges a formula in the place of the original.
@@ -311,7 +316,7 @@ fn outcome((verdict, strength): (Verdict, Option<Strength>)) -> Outcome {
 /// Whether a clause makes sense by itself.
 fn understood(source: &Source, clause: &Clause) -> Result<(), ErrorKind> {
     let scope = &source.book.entries[source.index].scope;
-    semantics::understand(&mut World::new(), scope, clause, true).map(|_| ()).map_err(|e| e.kind)
+    semantics::understand(&mut World::until(source.deadline), scope, clause, true).map(|_| ()).map_err(|e| e.kind)
 }
 
 impl Bench {
@@ -339,6 +344,10 @@ impl Bench {
             return Quick::Elsewhere;
         }
         let world = &mut self.claim.world;
+        // Where many formulas have filled the graph, the rest get one of their own each.
+        if world.graph.cut_short().is_some() {
+            return Quick::Elsewhere;
+        }
         let link = match semantics::understand(world, scope, &clause, true) {
             Ok(link) => link,
             Err(error) => return Quick::Error(error.kind),
@@ -347,6 +356,9 @@ impl Bench {
         for pair in pairs(world, &link, clause.rhs == Side::Constant) {
             let residual = self.claim.premises.resolve(&mut world.graph, pair.residual);
             outputs.extend([residual, world.graph.magnitude(residual)]);
+        }
+        if world.graph.cut_short().is_some() {
+            return Quick::Elsewhere;
         }
         let tape = Tape::compile(&world.graph, &outputs);
         if !self.cover(tape.inputs(), seed) {
@@ -372,8 +384,9 @@ impl Bench {
         let link = semantics::understand(world, scope, &clause, true).ok()?;
         let pairs = pairs(world, &link, clause.rhs == Side::Constant);
         let outputs: Vec<_> = pairs.iter().map(|p| self.claim.premises.resolve(&mut world.graph, p.residual)).collect();
+        let cut_short = world.graph.cut_short().is_some();
         let tape = Tape::compile(&world.graph, &outputs);
-        if !self.cover(tape.inputs(), seed) {
+        if cut_short || !self.cover(tape.inputs(), seed) {
             return None;
         }
         let mut work = Workspace::default();

@@ -359,6 +359,8 @@ pub struct Judgement {
     pub suggestions: Vec<Suggestion>,
     /// What doubles lose: the mean over the links, and the worst.
     pub lost_bits: Option<LostBits>,
+    /// Which diagnosis was asked for and cut short, and why; what there is of it is not all.
+    pub unfinished: Option<String>,
     /// The time it took, in microseconds.
     pub micros: u64,
     /// What stands in the way of a verdict, with its place in the file, where no link says it.

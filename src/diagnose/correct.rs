@@ -188,7 +188,7 @@ impl<'b> Search<'b> {
     fn confirmed(&mut self, guesses: Vec<Change>, links: &[usize]) -> Vec<Change> {
         let mut found = Vec::new();
         for change in guesses.into_iter().take(CONFIRMED) {
-            if found.len() >= HOLDING {
+            if found.len() >= HOLDING || self.trial.deadline().has_passed() {
                 break;
             }
             match self.trial.outcome_at(&change.made(self.tree), links) {
@@ -207,7 +207,7 @@ impl<'b> Search<'b> {
         let mut found: Vec<(Change, Node)> = Vec::new();
         let mut idle: Vec<(Change, Node)> = Vec::new();
         for change in changes {
-            if found.len() >= MOST {
+            if found.len() >= MOST || self.trial.deadline().has_passed() {
                 break;
             }
             let made = change.made(self.tree);

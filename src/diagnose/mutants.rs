@@ -96,11 +96,18 @@ impl Reach<'_> {
     pub const MUTANTS: Reach<'static> = Reach { siblings: Some(2), factors: &[] };
 }
 
+/// The longest formula of which mutants are made, in bytes: n places to edit make n formulas of n parts.
+const LONGEST: usize = 2000;
+
 /// The formulas that are one edit away, no two with the same LaTeX, in the order of writing.
 pub fn mutants(tree: &Node, scope: &Scope, reach: Reach) -> Vec<Mutant> {
+    let latex = to_latex(tree);
+    if latex.len() > LONGEST {
+        return Vec::new();
+    }
     let mut walk = Walk::new(scope, reach);
     walk.visit(tree);
-    let mut seen: HashSet<String> = HashSet::from([to_latex(tree)]);
+    let mut seen: HashSet<String> = HashSet::from([latex]);
     let mutated = walk.found.into_iter().map(|Found { path, node, edit }| {
         let tree = replaced_at(tree, &path, &node);
         Mutant { tree, edit, path, node }

@@ -67,6 +67,7 @@ pub(super) fn judgement(label: &str, kind: &str, link: LinkJudgement) -> Judgeme
         sensitivity: None,
         suggestions: Vec::new(),
         lost_bits: None,
+        unfinished: None,
         micros: 118,
         problem: None,
     }

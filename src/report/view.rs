@@ -8,7 +8,7 @@ use super::text::{duration, language, number, strength, symbol, word};
 use super::{Counts, Options, Run, diff, text, view_certificate, view_charts, view_diagnosis, view_dimensions};
 use crate::check::verdict::{Correction, Counterexample, DocumentReport, Judgement, LinkJudgement, Order, Verdict};
 use serde::Serialize;
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 
 #[derive(Serialize)]
 pub(super) struct Page {
@@ -153,7 +153,7 @@ struct CorrectionView {
 
 /// The page of a run.
 pub(super) fn page(run: &Run, options: Options) -> Page {
-    let mut builder = Builder { renderer: Renderer::new(), options, taken: HashSet::new() };
+    let mut builder = Builder { renderer: Renderer::new(), options, taken: HashMap::new() };
     let documents: Vec<_> = run.documents.iter().map(|d| builder.document(d)).collect();
     let all = || documents.iter().flat_map(|d| &d.sections).flat_map(|s| &s.equations);
     let judged = || run.documents.iter().flat_map(|d| &d.equations);
@@ -179,8 +179,8 @@ pub(super) fn page(run: &Run, options: Options) -> Page {
 struct Builder {
     renderer: Renderer,
     options: Options,
-    /// The anchors in use.
-    taken: HashSet<String>,
+    /// The anchors in use, each with the number of those made from it.
+    taken: HashMap<String, usize>,
 }
 
 impl Builder {
@@ -355,12 +355,13 @@ impl Builder {
         let sign = |c: char| if c.is_alphanumeric() || matches!(c, '-' | '.' | '_') { c } else { '-' };
         let base: String = name.chars().map(sign).collect();
         let mut anchor = base.clone();
-        for n in 2.. {
-            if self.taken.insert(anchor.clone()) {
-                break;
-            }
+        while self.taken.contains_key(&anchor) {
+            // From where the last one of this name was found: many of one name take no longer each.
+            let n = self.taken.entry(base.clone()).or_insert(1);
+            *n += 1;
             anchor = format!("{base}-{n}");
         }
+        self.taken.insert(anchor.clone(), 1);
         anchor
     }
 }

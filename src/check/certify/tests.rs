@@ -265,7 +265,10 @@ fn small_documents() {
     let twice = certified(r"y = x", r"where = ['y = x \cos^2\theta', 'y = x - x \sin^2\theta']").unwrap();
     assert_eq!(twice, r"at x = 1, \theta = 2 arctan(1/2) the difference is -16/25, in fractions");
     // A premise that says what is greater holds at the state, too.
-    assert_eq!(certified("x = 1", r"where = ['x > \frac{3}{2}']").unwrap(), "at x = 2 the difference is 1, with 64 bits");
+    assert_eq!(
+        certified("x = 1", r"where = ['x > \frac{3}{2}']").unwrap(),
+        "at x = 2 the difference is 1, with 64 bits"
+    );
     // Inequalities by their sign, with and without a condition.
     assert!(certified(r"\sin\theta < \theta - \theta^3 / 6", "").unwrap().starts_with(r"at \theta = "));
     assert!(certified(r"x^2 < 1", r"iff = 'x < \frac{11}{10}'").unwrap().starts_with("at x = "));
