@@ -350,7 +350,10 @@ impl Elaborator<'_> {
                     return self.collect_indices(sup, bound, found);
                 }
                 None => {
-                    self.collect_indices(base, bound, found);
+                    // A letter with a script is a name of its own, unless the script means a component.
+                    if matches!(base.kind, Kind::Group { .. }) || self.scope.axis(&spelling(sub)).is_some() {
+                        self.collect_indices(base, bound, found);
+                    }
                     return self.collect_letters(sub, bound, found);
                 }
             }
