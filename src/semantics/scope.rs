@@ -258,7 +258,16 @@ impl Scope {
             found.insert(pattern);
             return;
         }
-        node.children().into_iter().for_each(|child| self.collect_names(child, found));
+        match &node.kind {
+            // Names that are not declared yet.
+            Kind::Accent(..) | Kind::Styled(..) => {}
+            Kind::Scripts { base, sub: Some(sub), .. } => {
+                if matches!(base.kind, Kind::Group { .. }) || self.axis(&spelling(sub)).is_some() {
+                    self.collect_names(base, found);
+                }
+            }
+            _ => node.children().into_iter().for_each(|child| self.collect_names(child, found)),
+        }
     }
 
     /// Whether what a name stands for leads back to it.
