@@ -19,6 +19,7 @@ mod view_dimensions;
 
 pub use charts::Chart;
 pub use counts::Counts;
+pub use diff::words as marked_words;
 
 use crate::check::verdict::DocumentReport;
 use std::path::{Path, PathBuf};
