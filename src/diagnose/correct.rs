@@ -35,6 +35,8 @@ pub const MOST: usize = 3;
 const CONFIRMED: usize = 48;
 /// How many guesses that hold are kept, for a row of sides.
 const HOLDING: usize = 12;
+/// How many factors with an index are put in.
+const INDEXED: usize = 8;
 /// How many formulas are tried whose sides the solved states do not cover.
 const ELSEWHERE: usize = 120;
 
@@ -99,6 +101,10 @@ impl<'b> Search<'b> {
                 joined = tries::search(&mut self.trial, self.tree, &singles, self.links);
                 break;
             };
+            // What mends another row may mend this one, too.
+            if found.is_empty() {
+                continue;
+            }
             joined = joined.iter().flat_map(|a| found.iter().filter_map(|b| a.and(b))).collect();
             joined.sort_by_key(|c| c.cost);
             joined.truncate(4 * HOLDING);
@@ -113,8 +119,11 @@ impl<'b> Search<'b> {
 
     /// All single edits, those of a symbol also in every place at once.
     fn singles(&self) -> Vec<Change> {
-        let half: Vec<Node> = latex::parse("\\frac{1}{2}").into_iter().collect();
-        let mut walk = Walk::new(self.scope(), Reach { siblings: None, factors: &half });
+        // A factor with an index has no value of its own by which it could be found.
+        let half = latex::parse("\\frac{1}{2}").into_iter();
+        let indexed = self.near.indexed(self.scope()).cloned().take(INDEXED);
+        let factors: Vec<Node> = half.chain(indexed).collect();
+        let mut walk = Walk::new(self.scope(), Reach { siblings: None, factors: &factors });
         walk.visit(self.tree);
         let found = walk.found.into_iter().chain(wider(self.tree, self.scope(), &self.near));
         let changes: Vec<(EditKind, Change)> = found.map(|f| (f.edit.kind, self.change(f))).collect();

@@ -12,7 +12,7 @@ use crate::latex::ast::{Kind, Node, Sign, Term};
 use crate::latex::to_latex;
 use crate::semantics::{Clause, Side};
 
-use super::change::{Change, Path, at};
+use super::change::{Change, Path, at, flat};
 use super::lexicon::{Lexicon, slots};
 use super::likeness;
 use super::mutants::replaced_at;
@@ -21,9 +21,9 @@ use super::shape::group;
 /// How near two values must be, relative to the largest of the sides.
 const NEAR: f64 = 1e-9;
 /// How many variants of a side are continued by filling holes in them.
-const CONTINUED: usize = 120;
+const CONTINUED: usize = 80;
 /// How many pairs of edits in one product are tried.
-const PAIRS: usize = 3000;
+const PAIRS: usize = 1500;
 /// How many of the edits that make sense of a side are continued.
 const MAKING_SENSE: usize = 4;
 /// How many of the variants of one value are kept for each side, where several sides are edited.
@@ -149,6 +149,7 @@ impl<'s, 'b> Row<'s, 'b> {
 
     /// Evaluates a variant of a side and keeps it, if it is new.
     fn try_variant(&mut self, side: usize, change: Change, node: Node) {
+        let node = flat(node);
         if !self.seen.insert((side, to_latex(&node))) {
             return;
         }
