@@ -6,8 +6,9 @@
 use std::path::Path;
 
 use kenzan::check::{self, Book, Options};
-use kenzan::diagnose::measure::{self, Rank};
+use kenzan::diagnose::measure::{self, Rank, Soundness};
 use kenzan::document;
+use rayon::prelude::*;
 
 fn notes() -> Book {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("notes/gyroscope.md");
@@ -97,4 +98,32 @@ fn originals_of_some_mutants_are_found() {
     let some = ["24", "42", "52", "55", "57", "66", "70", "78"];
     let [total, first, three] = tally(&originals(3, |label| some.contains(&label)));
     assert!(10 * three >= 8 * total && 10 * first >= 6 * total, "{first}, {three} of {total}");
+}
+
+/// A hundred thousand mutants with one or two edits: none may be judged to hold that does not.
+#[test]
+#[ignore = "takes minutes"]
+fn no_mutant_holds_falsely() {
+    let each = std::env::var("MOST").ok().and_then(|m| m.parse().ok()).unwrap_or(2500);
+    let (book, options) = (notes(), options());
+    let begin = std::time::Instant::now();
+    let of = |index: &usize| {
+        let judgement = check::judge(&book, *index, &options);
+        measure::soundness(&book, *index, &judgement, &options, each).map(|s| (judgement.label, s))
+    };
+    let indices: Vec<usize> = (0..book.entries.len()).filter(|k| wanted(&book.entries[*k].equation.label)).collect();
+    let all: Vec<(String, Soundness)> = indices.par_iter().filter_map(of).collect();
+    let mut counts = [0; 8];
+    for (label, s) in &all {
+        let own = [s.judged, s.killed, s.open, s.same, s.exact, s.elsewhere, s.unconfirmed.len(), s.refuted.len()];
+        println!("({label}) {own:?}");
+        s.refuted.iter().for_each(|latex| println!("      refuted {latex}"));
+        s.unconfirmed.iter().take(3).for_each(|latex| println!("      unconfirmed {latex}"));
+        counts.iter_mut().zip(own).for_each(|(sum, n)| *sum += n);
+    }
+    println!(
+        "judged, killed, open, same, exact, elsewhere, unconfirmed, refuted: {counts:?} in {:.2?}",
+        begin.elapsed()
+    );
+    assert!(all.iter().all(|(_, s)| s.refuted.is_empty()));
 }

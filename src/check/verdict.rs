@@ -302,6 +302,19 @@ pub struct Suggestion {
     pub latex: String,
     /// What was changed, in words.
     pub edit: String,
+    /// The printed formula in the same spelling.
+    pub printed: String,
+    /// What was changed, marked.
+    pub diff: Option<Difference>,
+}
+
+/// Two formulas with what differs marked.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Difference {
+    /// The printed one, with `[-...-]` around what goes.
+    pub printed: String,
+    /// The suggested one, with `{+...+}` around what comes.
+    pub suggested: String,
 }
 
 /// The judgement on one equation.
