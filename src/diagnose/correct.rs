@@ -124,7 +124,7 @@ impl<'b> Search<'b> {
     fn singles(&self) -> Vec<Change> {
         // A factor with an index has no value of its own by which it could be found.
         let half = latex::parse("\\frac{1}{2}").into_iter();
-        let indexed = self.near.indexed(self.scope()).cloned().take(INDEXED);
+        let indexed = self.near.indexed(self.scope()).take(INDEXED).cloned();
         let factors: Vec<Node> = half.chain(indexed).collect();
         let mut walk = Walk::new(self.scope(), Reach { siblings: None, factors: &factors });
         walk.visit(self.tree);
