@@ -93,6 +93,11 @@ impl<'b> Screen<'b> {
         (screen.states.len() == STATES).then_some(screen)
     }
 
+    /// When the time for looking at sides is used up.
+    pub fn deadline(&self) -> Deadline {
+        self.source.deadline
+    }
+
     /// The values of a side of a link, the left one or the right one. The other side decides its shape, where it is 0.
     pub fn side(&mut self, left: &Node, right: &Side, of_left: bool) -> Sight {
         let Some(expressions) = self.expressions(left, right, of_left) else { return Sight::Senseless };

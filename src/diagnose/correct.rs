@@ -10,6 +10,8 @@
 //! nothing and comes last; of several that say the same the cheapest is kept. All budgets count formulas and not time,
 //! so that the same notes give the same suggestions.
 
+use std::collections::HashMap;
+
 use crate::check::verdict::{Difference, Judgement, LinkJudgement, Suggestion, Verdict};
 use crate::check::{Book, Options, Outcome, Screen, Trial, Version};
 use crate::latex::ast::{Kind, Node};
@@ -130,14 +132,17 @@ impl<'b> Search<'b> {
         walk.visit(self.tree);
         let found = walk.found.into_iter().chain(wider(self.tree, self.scope(), &self.near));
         let changes: Vec<(EditKind, Change)> = found.map(|f| (f.edit.kind, self.change(f))).collect();
+        let mut same: HashMap<&[String], Vec<&Change>> = HashMap::new();
+        changes.iter().for_each(|(_, c)| same.entry(&c.edits).or_default().push(c));
         let mut all: Vec<Change> = Vec::new();
-        for (n, (kind, change)) in changes.iter().enumerate() {
-            if repeats(*kind) {
-                let same = |other: &&(EditKind, Change)| other.1.edits == change.edits;
-                let is_first = !changes[..n].iter().any(|c| same(&c));
+        for (kind, change) in &changes {
+            // Once for all that say the same, at the first of them.
+            if repeats(*kind)
+                && let Some(same) = same.remove(change.edits.as_slice())
+            {
                 let mut everywhere = change.clone();
-                everywhere.places = changes.iter().filter(same).flat_map(|c| c.1.places.clone()).collect();
-                if is_first && everywhere.places.len() > 1 {
+                everywhere.places = same.iter().flat_map(|c| c.places.clone()).collect();
+                if everywhere.places.len() > 1 {
                     everywhere.edits = vec![format!("{} throughout", change.edits.join("; "))];
                     everywhere.cost += likeness::THROUGHOUT;
                     all.push(everywhere);

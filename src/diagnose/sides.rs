@@ -26,6 +26,8 @@ const CONTINUED: usize = 80;
 const PAIRS: usize = 1500;
 /// How many of the edits that make sense of a side are continued.
 const MAKING_SENSE: usize = 4;
+/// The most pairs of edits that are looked at for each side.
+const MOST_PAIRS: usize = 200_000;
 /// How many of the variants of one value are kept for each side, where several sides are edited.
 const KEPT: usize = 4;
 /// How many are kept where one side is edited.
@@ -165,7 +167,8 @@ impl<'s, 'b> Row<'s, 'b> {
 
     /// Enters changes of the formula that lie within one side.
     pub fn enter(&mut self, changes: &[Change]) {
-        for change in changes {
+        let deadline = self.screen.deadline();
+        for change in changes.iter().take_while(|_| !deadline.has_passed()) {
             let Some(side) = self.side_of(change) else { continue };
             let Some(prefix) = self.sides[side].path.clone() else { continue };
             let places = change.places.iter();
@@ -234,7 +237,8 @@ impl<'s, 'b> Row<'s, 'b> {
     fn fill_side(&mut self, lexicon: &Lexicon, side: usize, change: &Change, node: &Node, values: &[f64]) {
         let Some(place) = self.sides[side].path.clone() else { return };
         let targets: Vec<Vec<f64>> = self.targets().into_iter().filter(|t| !self.equal(t, values)).collect();
-        for slot in slots(node) {
+        let deadline = self.screen.deadline();
+        for slot in slots(node).into_iter().take_while(|_| !deadline.has_passed()) {
             let Some(old) = at(node, &slot.path).cloned() else { continue };
             let mut found: Vec<(Node, String, u32)> = Vec::new();
             for wanted in self.solved(side, node, &slot.path, values, &targets, &doubled(&old)) {
@@ -345,11 +349,14 @@ impl<'s, 'b> Row<'s, 'b> {
                     let hits = order[from.min(order.len())..]
                         .iter()
                         .take_while(|b| self.variants[**b].key <= rest + tolerance);
-                    pairs.extend(hits.map(|b| (*a, *b)));
+                    // Where very many edits change a side alike, they say little.
+                    let room = MOST_PAIRS.saturating_sub(pairs.len());
+                    pairs.extend(hits.map(|b| (*a, *b)).take(room));
                 }
             }
             pairs.extend(self.close_pairs(side, &order));
-            for (a, b) in pairs {
+            let deadline = self.screen.deadline();
+            for (a, b) in pairs.into_iter().take_while(|_| !deadline.has_passed()) {
                 let Some(mut both) = self.variants[a].change.and(&self.variants[b].change) else { continue };
                 both.cost += likeness::FURTHER;
                 let places = both.places.iter();
@@ -365,7 +372,8 @@ impl<'s, 'b> Row<'s, 'b> {
         let root = &self.sides[side];
         let Some(prefix) = &root.path else { return Vec::new() };
         let mut pairs: Vec<(u32, usize, usize)> = Vec::new();
-        for (n, a) in order.iter().enumerate() {
+        let deadline = self.screen.deadline();
+        for (n, a) in order.iter().enumerate().take_while(|_| !deadline.has_passed()) {
             for b in &order[n + 1..] {
                 let (x, y) = (&self.variants[*a].change, &self.variants[*b].change);
                 let Some(((p, _), (q, _))) = x.places.first().zip(y.places.first()) else { continue };

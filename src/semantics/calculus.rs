@@ -3,7 +3,7 @@
 use crate::expr::{Expr, Graph};
 use crate::latex::ast::{BigOp, Font, Kind, Node, Rel, Span};
 
-use super::elaborate::{Elaborator, Typed};
+use super::elaborate::{Elaborator, MOST_ALIASES, Typed};
 use super::error::{Error, Result};
 use super::juxtaposition::Item;
 use super::name::spelling;
@@ -329,8 +329,11 @@ impl Elaborator<'_> {
                 }
             }
             self.collect_letters(node, bound, found);
-            if let EntryKind::Same(other) = &entry.kind {
+            let depth = self.aliases.get();
+            if let (EntryKind::Same(other), true) = (&entry.kind, depth < MOST_ALIASES) {
+                self.aliases.set(depth + 1);
                 self.collect_indices(other, bound, found);
+                self.aliases.set(depth);
             }
             return;
         }

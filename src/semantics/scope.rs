@@ -7,6 +7,7 @@ use crate::document::{Arguments, BasisDeclaration, Declarations, Problem, Spanne
 use crate::latex;
 use crate::latex::ast::{Kind, Node};
 
+use super::elaborate::MOST_ALIASES;
 use super::name::{nearest, spelling, spelling_with};
 use super::units::{self, Dimension};
 
@@ -280,6 +281,10 @@ impl Scope {
             let mut names = HashSet::new();
             self.collect_names(node, &mut names);
             queue.extend(names.into_iter().filter(|name| found.insert(name.clone())));
+            // What goes on for so long is refused where it is used.
+            if found.len() > MOST_ALIASES {
+                break;
+            }
         }
         found.contains(pattern)
     }
