@@ -1,9 +1,10 @@
 //! The command line: arguments, progress, exit codes.
 
+use std::collections::HashSet;
 use std::io::{IsTerminal, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use clap::{Parser, Subcommand, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -44,6 +45,9 @@ enum Command {
         /// What to print: a summary, or the report as JSON.
         #[arg(long, value_enum, default_value_t = Format::Human)]
         format: Format,
+        /// Leave times out of the report: the same notes and the same seed then give the same bytes.
+        #[arg(long)]
+        no_times: bool,
         #[command(flatten)]
         sampling: Sampling,
         /// Judge only the equation of this label; may be repeated.
@@ -55,6 +59,9 @@ enum Command {
         /// Search what was probably meant, for each equation that fails.
         #[arg(long)]
         suggest: bool,
+        /// All that costs more than a verdict: --mutants and --suggest.
+        #[arg(long)]
+        deep: bool,
     },
     /// Show how one equation is read and what it is at three states.
     Explain {
@@ -79,6 +86,10 @@ struct Sampling {
     /// Decide in so many bits (needs the feature `rug`); otherwise in double-double.
     #[arg(long, value_name = "BITS", value_parser = precision)]
     precision: Option<u32>,
+    /// The time that an equation may take; then it is undecided. Its correction, its mutants and the search for what was
+    /// meant have as much each.
+    #[arg(long, value_name = "SECONDS", default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..=86_400))]
+    budget: u32,
     /// The number of threads; one for each core otherwise.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
     jobs: Option<u16>,
@@ -91,6 +102,13 @@ enum Format {
     Human,
     /// The report as JSON.
     Json,
+}
+
+/// What is printed, and what the reports leave out.
+#[derive(Clone, Copy)]
+struct Printed {
+    format: Format,
+    options: report::Options,
 }
 
 /// Reads a precision; without the feature `rug` there is none to choose.
@@ -108,7 +126,9 @@ fn precision(text: &str) -> Result<u32, String> {
 
 impl Sampling {
     fn options(&self) -> Options {
-        Options { seed: self.seed, states: self.states as usize, precision: self.precision }
+        let (seed, states, precision) = (self.seed, self.states as usize, self.precision);
+        let budget = Some(Duration::from_secs(self.budget.into()));
+        Options { seed, states, precision, budget, ..Options::default() }
     }
 }
 
@@ -124,9 +144,11 @@ pub fn main() -> ExitCode {
         }
     };
     let outcome = match arguments.command {
-        Command::Verify { paths, out, format, sampling, only, mutants, suggest } => {
+        Command::Verify { paths, out, format, no_times, sampling, only, mutants, suggest, deep } => {
+            let (mutants, suggest) = (mutants || deep, suggest || deep);
             let request = Request { paths, options: sampling.options(), only, mutants, suggest };
-            in_pool(sampling.jobs, || verify_command(&request, &out, format))
+            let printed = Printed { format, options: report::Options { times: !no_times } };
+            in_pool(sampling.jobs, || verify_command(&request, &out, printed))
         }
         Command::Explain { path, label, sampling } => {
             in_pool(sampling.jobs, || explain_command(&path, &label, &sampling))
@@ -148,7 +170,7 @@ fn in_pool(jobs: Option<u16>, work: impl FnOnce() -> miette::Result<u8> + Send) 
     pool.install(work)
 }
 
-fn verify_command(request: &Request, out: &std::path::Path, format: Format) -> miette::Result<u8> {
+fn verify_command(request: &Request, out: &std::path::Path, printed: Printed) -> miette::Result<u8> {
     let begin = Instant::now();
     let documents = verify::documents(&request.paths)?;
     let total: usize = documents.iter().map(|d| d.equations().count()).sum();
@@ -161,8 +183,8 @@ fn verify_command(request: &Request, out: &std::path::Path, format: Format) -> m
         show_problems(v);
     }
     let run = verify::run(&verified, request, begin);
-    let written = report::write(&run, out)?;
-    print(&run, format, &written)?;
+    let written = report::write(&run, out, printed.options)?;
+    print(&run, printed, &written)?;
     Ok(if verify::all_as_expected(&verified) { AS_EXPECTED } else { NOT_AS_EXPECTED })
 }
 
@@ -170,9 +192,10 @@ fn verify_command(request: &Request, out: &std::path::Path, format: Format) -> m
 fn show_problems(verified: &Verified) {
     let surprising = verified.report.equations.iter().filter(|e| !e.as_expected);
     let mut problems: Vec<&Problem> = verified.problems.iter().collect();
+    let told: HashSet<(usize, usize)> = problems.iter().map(|p| (p.span.start, p.span.end)).collect();
     for problem in surprising.flat_map(|e| e.problems()) {
         // A premise that does not exist has been told already.
-        if !verified.problems.iter().any(|p| p.span == problem.span) {
+        if !told.contains(&(problem.span.start, problem.span.end)) {
             problems.push(problem);
         }
     }
@@ -197,14 +220,14 @@ fn check_labels(request: &Request, verified: &[Verified]) -> miette::Result<()> 
     Ok(())
 }
 
-fn print(run: &Run, format: Format, written: &report::Written) -> miette::Result<()> {
-    let text = match format {
+fn print(run: &Run, printed: Printed, written: &report::Written) -> miette::Result<()> {
+    let text = match printed.format {
         Format::Human => {
             let colour = std::io::stdout().is_terminal() && std::env::var_os("NO_COLOR").is_none();
-            let summary = terminal::render(run, colour, report::Options::default());
+            let summary = terminal::render(run, colour, printed.options);
             format!("{summary}\nreport: {}\n", written.html.display())
         }
-        Format::Json => report::json::render(run, report::Options::default())?,
+        Format::Json => report::json::render(run, printed.options)?,
     };
     // A closed pipe is no failure.
     let _ = std::io::stdout().write_all(text.as_bytes());

@@ -42,7 +42,7 @@ fn verdict(latex: &str, annotation: &str) -> Verdict {
 }
 
 fn one(latex: &str, annotation: &str) -> Judgement {
-    let all = judge(&format!("$$ {latex} \\tag{{1}} $$\n<!-- kenzan\n{annotation}\nbecause = \"a test\"\n-->\n"));
+    let all = judge(&format!("$$ {latex} \\tag{{1}} $$\n<!-- kenzan\nbecause = \"a test\"\n{annotation}\n-->\n"));
     all.into_values().next().expect("one equation")
 }
 
@@ -222,4 +222,58 @@ fn the_same_seed_gives_the_same_judgement() {
     };
     let (first, second) = (judge(equation), judge(equation));
     assert_eq!(strip(first["1"].clone()), strip(second["1"].clone()));
+}
+
+#[test]
+fn a_premise_is_not_solved_by_a_common_factor_that_is_zero() {
+    // Where \dot x = 0 the premise holds whatever c is, and so would anything multiplied by \dot x.
+    let premise = r"where = '\dot{x} \ddot{x} + c x \dot{x} = 0'";
+    assert_eq!(verdict(r"\frac{d}{dt} (\dot{x}^2 + c x^2) = 0", premise), Verdict::Holds);
+    assert_eq!(verdict(r"\frac{d}{dt} (\dot{x}^2 + 2 c x^2) = 0", premise), Verdict::Fails);
+}
+
+#[test]
+fn premises_of_one_link_are_not_used_for_another() {
+    // With \dot x = 0 given for both, the first link would hold whatever its factors are.
+    let formula = r"\frac{d}{dt} x^2 = 2 x \dot{x} = 0";
+    let misprint = r"\frac{d}{dt} x^2 = 3 x \dot{x} = 0";
+    assert_eq!(verdict(misprint, r"where = '\dot{x} = 0'"), Verdict::Holds);
+    assert_eq!(verdict(misprint, "[link.2]\nwhere = '\\dot{x} = 0'"), Verdict::Fails);
+    assert_eq!(verdict(formula, "[link.2]\nwhere = '\\dot{x} = 0'"), Verdict::Holds);
+}
+
+#[test]
+fn a_general_solution_has_all_its_constants() {
+    let solve = |formula: &str, general: &str| {
+        let all = judge(&format!(
+            "$$ \\ddot{{x}} = - \\omega^2 x \\tag{{1}} $$\n\n$$ x = {formula} \\tag{{2}} $$\n\
+             <!-- kenzan\nsolves = \"1\"\ngeneral = {general}\n-->\n"
+        ));
+        all["2"].verdict
+    };
+    assert_eq!(solve(r"a \cos \omega t + b \sin \omega t", r#"["a", "b"]"#), Verdict::Holds);
+    assert_eq!(solve(r"a \cos (\omega t + b)", r#"["a", "b"]"#), Verdict::Holds);
+    assert_eq!(solve(r"a \cos \omega t", r#"["a"]"#), Verdict::Fails);
+    assert_eq!(solve(r"a \cos \omega t + b \cos \omega t", r#"["a", "b"]"#), Verdict::Fails);
+    assert_eq!(solve(r"a \cos \omega t + b \sin 2 \omega t", r#"["a", "b"]"#), Verdict::Fails);
+}
+
+#[test]
+fn premises_that_say_what_is_greater_restrict_the_states() {
+    assert_eq!(verdict(r"\sqrt{(a - b)^2} = a - b", "where = 'a > b'"), Verdict::Holds);
+    assert_eq!(verdict(r"\sqrt{(a - b)^2} = a - b", ""), Verdict::Fails);
+    assert_eq!(verdict(r"\sqrt{(a - b)^2} = a - b", "where = 'a < b'"), Verdict::Fails);
+    assert_eq!(verdict(r"(a - b)(b - c) > 0", "where = 'a > b > c'"), Verdict::Holds);
+    assert_eq!(verdict(r"(a - b)(b - c) > 0", "where = 'a > b < c'"), Verdict::Fails);
+    assert_eq!(verdict(r"a > b", "where = ['a > 2 c', 'c > 2 a']"), Verdict::Undecided);
+}
+
+#[test]
+fn a_law_is_taken_as_given_if_a_state_satisfies_it() {
+    assert_eq!(verdict(r"a \ddot{x} = - b x", r#"kind = "law""#), Verdict::Definition);
+    assert_eq!(verdict(r"a \ddot{x} = - b x", ""), Verdict::Fails);
+    assert_eq!(verdict(r"\ddot{x}^2 = - b^2 x^2", r#"kind = "law""#), Verdict::Fails);
+    assert_eq!(verdict(r"\ddot{x} = \ddot{x} + a^2", r#"kind = "law""#), Verdict::Fails);
+    assert_eq!(verdict(r"\frac{d}{dt} x^2 = 2 x \dot{x}", r#"kind = "law""#), Verdict::Holds);
+    assert_eq!(verdict(r"\mathbf{u} = a", r#"kind = "law""#), Verdict::Fails);
 }

@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use crate::document::{Span, Spanned};
-use crate::expr::{Expr, Graph, Node, SymId};
+use crate::expr::{Deadline, Expr, Graph, Node, SymId};
 use crate::latex::{
     ParseError,
     ast::{self, Rel},
@@ -62,6 +62,17 @@ pub struct Claim {
     pub condition: Option<(Rel, Expr, Expr)>,
     /// The bases of all symbols that the premises speak of, those left out as unrelated included.
     pub bound: BTreeSet<SymId>,
+    /// What must be greater or less than zero at a state.
+    pub ordered: Vec<(Rel, Expr)>,
+}
+
+/// What premises state, of scalars.
+#[derive(Clone, Debug, Default)]
+pub struct Stated {
+    /// What is equal.
+    pub equal: Vec<(Expr, Expr)>,
+    /// What is greater or less than zero.
+    pub ordered: Vec<(Rel, Expr)>,
 }
 
 /// Why a claim could not be made.
@@ -73,7 +84,17 @@ pub enum Obstacle {
     Premise(String, String, Span),
 }
 
+/// Which premises a claim keeps.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Related {
+    /// Those that have to do with what is claimed.
+    Only,
+    /// All.
+    All,
+}
+
 /// What a claim is made from.
+#[derive(Clone, Copy)]
 pub struct Source<'b> {
     /// The document.
     pub book: &'b Book,
@@ -81,33 +102,70 @@ pub struct Source<'b> {
     pub index: usize,
     /// The version of it.
     pub version: Version,
+    /// Which of its links (from 0), where it has premises of its own.
+    pub link: Option<usize>,
+    /// When the time for it is used up.
+    pub deadline: Deadline,
 }
 
-impl Source<'_> {
+impl<'b> Source<'b> {
+    /// For an equation as a whole.
+    pub fn new(book: &'b Book, index: usize, version: Version) -> Self {
+        Source { book, index, version, link: None, deadline: Deadline::NEVER }
+    }
+
+    /// With a limit of the time for it.
+    pub fn until(self, deadline: Deadline) -> Self {
+        Source { deadline, ..self }
+    }
+
+    /// For one of its links.
+    pub fn at(&self, link: usize) -> Self {
+        Source { link: Some(link), ..*self }
+    }
+
     fn scope(&self) -> &Scope {
         &self.book.entries[self.index].scope
     }
 
     /// Builds the claim of a clause of the equation. `known` are clauses of the same equation that are definitions.
     pub fn claim(&self, clause: &Clause, scope: &Scope, known: &[Clause]) -> Result<Claim, Obstacle> {
-        let mut world = World::new();
+        self.claim_of(std::slice::from_ref(clause), scope, known, Related::Only)
+    }
+
+    /// Builds one claim of several clauses with one relation; a ± may stand in the first alone.
+    pub(super) fn claim_of(
+        &self,
+        clauses: &[Clause],
+        scope: &Scope,
+        known: &[Clause],
+        related: Related,
+    ) -> Result<Claim, Obstacle> {
+        let [clause, more @ ..] = clauses else {
+            return Err(Obstacle::Link(Error::unsupported("nothing is printed here", &(0..0))));
+        };
+        let mut world = World::until(self.deadline);
         // A premise from another section that speaks of the same basis means this one.
         Elaborator::new(&mut world, scope, Vec::new(), true).build_bases();
         let typed = self.branches(&mut world, scope, clause).map_err(Obstacle::Link)?;
         let constant = clause.rhs == Side::Constant;
         let mut branches: Vec<Branch> = typed.iter().map(|link| pairs(&mut world, link, constant)).collect();
+        for clause in more {
+            let link = semantics::understand(&mut world, scope, clause, true).map_err(Obstacle::Link)?;
+            branches[0].extend(pairs(&mut world, &link, clause.rhs == Side::Constant));
+        }
         let mut given = self.given(&mut world)?;
         for clause in known {
             self.add_clause(&mut world, self.scope(), clause, &mut given).map_err(Obstacle::Link)?;
         }
-        given.extend(world.integral_rates());
+        given.equal.extend(world.integral_rates());
         let small = self.small(&mut world)?;
         let condition = self.condition(&mut world)?;
         let solve = self.solve(&mut world)?;
         self.ranges(&mut world)?;
 
         let kept: BTreeSet<SymId> = small.iter().map(|(s, _)| *s).collect();
-        let mut premises = Premises::new(&mut world.graph, &given, &kept);
+        let mut premises = Premises::new(&mut world.graph, &given.equal, &kept);
         let mut targets = Vec::new();
         // What the link speaks of before the premises are put in: these may leave nothing of it, and still contradict
         // each other there.
@@ -118,12 +176,19 @@ impl Source<'_> {
             targets.extend([pair.residual, pair.lhs, pair.rhs]);
         }
         targets.extend(small.iter().map(|(s, _)| world.graph.sym(*s)).collect::<Vec<_>>());
-        let bound = world.graph.symbols(&premises.residuals);
+        let ordered: Vec<(Rel, Expr)> =
+            given.ordered.iter().map(|(rel, e)| (*rel, premises.resolve(&mut world.graph, *e))).collect();
+        let bound: Vec<Expr> = ordered.iter().map(|(_, e)| *e).chain(premises.residuals.iter().copied()).collect();
+        let bound = world.graph.symbols(&bound);
         let bound = bound.into_iter().map(|s| world.graph.info(s).base).collect();
-        premises.keep_related(&world.graph, &targets, mentioned);
+        if related == Related::Only {
+            premises.keep_related(&world.graph, &targets, mentioned);
+        }
         premises.close_in_time(&mut world.graph, &targets);
+        world.check(&clause.lhs.span).map_err(Obstacle::Link)?;
         let (lhs_text, rhs_text) = typed.first().map(|l| (l.lhs_text.clone(), l.rhs_text.clone())).unwrap_or_default();
-        Ok(Claim { world, rel: clause.rel, branches, premises, solve, small, lhs_text, rhs_text, condition, bound })
+        let rel = clause.rel;
+        Ok(Claim { world, rel, branches, premises, solve, small, lhs_text, rhs_text, condition, bound, ordered })
     }
 
     pub(super) fn branches(&self, world: &mut World, scope: &Scope, clause: &Clause) -> Result<Vec<TypedLink>, Error> {
@@ -136,39 +201,36 @@ impl Source<'_> {
         Ok(links)
     }
 
-    /// The pairs of equal scalars that the premises state.
-    fn given(&self, world: &mut World) -> Result<Vec<(Expr, Expr)>, Obstacle> {
+    /// What the premises state.
+    fn given(&self, world: &mut World) -> Result<Stated, Obstacle> {
         let entry = &self.book.entries[self.index];
-        let mut pairs = Vec::new();
-        for text in entry.list(|a| &a.where_) {
-            self.add_text(world, text, &mut pairs)?;
+        let mut stated = Stated::default();
+        for text in entry.wheres(self.link) {
+            self.add_text(world, text, &mut stated)?;
         }
-        for reference in entry.list(|a| &a.given) {
-            self.add_equation(world, reference, &mut pairs)?;
+        for reference in entry.given(self.link) {
+            self.add_equation(world, reference, &mut stated)?;
         }
-        pairs.extend(self.assumed(world)?);
-        Ok(pairs)
+        self.add_assumed(world, &mut stated)?;
+        Ok(stated)
     }
 
     /// The pairs of equal scalars that the section's assumptions state: what symbols are defined as, for the most part.
     pub(super) fn assumed(&self, world: &mut World) -> Result<Vec<(Expr, Expr)>, Obstacle> {
-        let mut pairs = Vec::new();
-        for text in &self.scope().assume {
-            self.add_text(world, text, &mut pairs)?;
-        }
-        Ok(pairs)
+        let mut stated = Stated::default();
+        self.add_assumed(world, &mut stated)?;
+        Ok(stated.equal)
     }
 
-    fn add_text(
-        &self,
-        world: &mut World,
-        text: &Spanned<String>,
-        pairs: &mut Vec<(Expr, Expr)>,
-    ) -> Result<(), Obstacle> {
+    fn add_assumed(&self, world: &mut World, stated: &mut Stated) -> Result<(), Obstacle> {
+        self.scope().assume.iter().try_for_each(|text| self.add_text(world, text, stated))
+    }
+
+    fn add_text(&self, world: &mut World, text: &Spanned<String>, stated: &mut Stated) -> Result<(), Obstacle> {
         let tree = Formula::new(&text.value).tree.map_err(|e| broken(text, &e))?;
         let statement = semantics::statement(&tree, None).map_err(|e| unclear(text, &e))?;
         for clause in &statement.clauses {
-            self.add_clause(world, self.scope(), clause, pairs).map_err(|e| unclear(text, &e))?;
+            self.add_clause(world, self.scope(), clause, stated).map_err(|e| unclear(text, &e))?;
         }
         Ok(())
     }
@@ -178,7 +240,7 @@ impl Source<'_> {
         &self,
         world: &mut World,
         reference: &Spanned<String>,
-        pairs: &mut Vec<(Expr, Expr)>,
+        stated: &mut Stated,
     ) -> Result<(), Obstacle> {
         let obstacle =
             |message: String| Obstacle::Premise(format!("({})", reference.value), message, reference.span.clone());
@@ -193,34 +255,35 @@ impl Source<'_> {
             if let (true, Some(head)) = (clause.continued, &head) {
                 clause.lhs = head.clone();
             }
-            self.add_clause(world, scope, &clause, pairs).map_err(|e| obstacle(with_help(&e)))?;
+            self.add_clause(world, scope, &clause, stated).map_err(|e| obstacle(with_help(&e)))?;
         }
         Ok(())
     }
 
-    /// Adds what a clause states, where it is an equation.
-    fn add_clause(
-        &self,
-        world: &mut World,
-        scope: &Scope,
-        clause: &Clause,
-        pairs: &mut Vec<(Expr, Expr)>,
-    ) -> Result<(), Error> {
-        if !matches!(clause.rel, Rel::Eq | Rel::Equiv | Rel::Implies) && !semantics::is_geometric(clause.rel) {
+    /// Adds what a clause states, where it is an equation or says what is greater.
+    fn add_clause(&self, world: &mut World, scope: &Scope, clause: &Clause, stated: &mut Stated) -> Result<(), Error> {
+        let ordered = matches!(clause.rel, Rel::Lt | Rel::Le | Rel::Gt | Rel::Ge);
+        let equal = matches!(clause.rel, Rel::Eq | Rel::Equiv | Rel::Implies) || semantics::is_geometric(clause.rel);
+        if !ordered && !equal {
             return Ok(());
         }
         let link = semantics::understand(world, scope, clause, true)?;
         let constant = clause.rhs == Side::Constant;
         for pair in self::pairs(world, &link, constant) {
-            pairs.push((pair.lhs, pair.rhs));
+            if ordered {
+                stated.ordered.push((clause.rel, pair.residual));
+                continue;
+            }
+            let stands = (pair.lhs, pair.rhs);
+            stated.equal.push(stands);
             let rates = in_time(world, pair).into_iter().filter(|pair| !pair.start);
-            pairs.extend(rates.map(|pair| (pair.lhs, pair.rhs)));
+            stated.equal.extend(rates.map(|pair| (pair.lhs, pair.rhs)).filter(|rate| *rate != stands));
         }
         Ok(())
     }
 
     /// The clauses of the equations that this one is said to solve.
-    pub fn solved(&self) -> Result<Vec<(Clause, &Scope)>, Obstacle> {
+    pub fn solved(&self) -> Result<Vec<(Clause, &'b Scope)>, Obstacle> {
         let mut clauses = Vec::new();
         for reference in self.book.entries[self.index].list(|a| &a.solves) {
             let obstacle =
@@ -244,7 +307,7 @@ impl Source<'_> {
     }
 
     /// A symbol named in an annotation; a family's as a tuple.
-    fn symbol(&self, world: &mut World, text: &Spanned<String>) -> Result<Value, Obstacle> {
+    pub(super) fn symbol(&self, world: &mut World, text: &Spanned<String>) -> Result<Value, Obstacle> {
         let tree = Formula::new(&text.value).tree.map_err(|e| broken(text, &e))?;
         semantics::every_value(world, self.scope(), &tree).map_err(|e| unclear(text, &e))
     }

@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::expr::Workspace;
+use crate::expr::{Deadline, Workspace};
 use crate::number::Df64;
 use crate::semantics::Clause;
 
@@ -45,10 +45,11 @@ pub struct InspectedState {
 /// Lays the links of an equation open.
 pub fn inspect(book: &Book, index: usize, version: Version, options: &Options) -> Vec<Inspection> {
     let Ok(statement) = book.statement(index, version) else { return Vec::new() };
-    let source = Source { book, index, version };
+    let source = Source::new(book, index, version).until(Deadline::after(options.budget));
     let scope = &book.entries[index].scope;
     if book.entries[index].list(|a| &a.solves).is_empty() {
-        return statement.clauses.iter().map(|c| link(c, source.claim(c, scope, &[]), options)).collect();
+        let clauses = statement.clauses.iter().enumerate();
+        return clauses.map(|(k, c)| link(c, source.at(k).claim(c, scope, &[]), options)).collect();
     }
     match source.solved() {
         Ok(solved) => {

@@ -1,18 +1,21 @@
 //! The judgement on an equation: each link of its chain is claimed, evaluated and decided; the worst decides.
 
 use std::collections::HashSet;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use crate::document::Problem;
+use crate::expr::Deadline;
 use crate::latex::ast::{Kind, Node, Rel};
 use crate::semantics::{self, Clause, ErrorKind, Scope, Side, Statement};
 
 use super::book::{Book, Entry, Formula, Unclear, Version};
 use super::claim::{Claim, Obstacle, Source, obstacle_text, unclear_text};
 use super::decide;
+use super::general;
+use super::law;
 use super::order;
 use super::trouble;
-use super::verdict::{Correction, DimensionStatus, Judgement, LinkJudgement, Strength, Verdict};
+use super::verdict::{Correction, DimensionStatus, Judgement, LinkJudgement, LostBits, Strength, Verdict};
 
 /// What the checker is asked for.
 #[derive(Clone, Debug)]
@@ -23,11 +26,17 @@ pub struct Options {
     pub states: usize,
     /// The precision in bits to decide in, where one is asked for (feature `rug`); otherwise double-double.
     pub precision: Option<u32>,
+    /// Whether a judgement is to say more than its verdict rests on: certificates of counterexamples (feature `rug`), the
+    /// bits that doubles lose.
+    pub evidence: bool,
+    /// The time that each stage may take for an equation: judging it, judging its correction, trying its mutants,
+    /// searching what was meant. `None` for no limit.
+    pub budget: Option<Duration>,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Options { seed: 1, states: 64, precision: None }
+        Options { seed: 1, states: 64, precision: None, evidence: true, budget: None }
     }
 }
 
@@ -75,8 +84,8 @@ pub fn blank(book: &Book, index: usize) -> Judgement {
         states: 0,
         as_printed: entry.reading.is_none(),
         reading: entry.reading.as_ref().map(|f| f.latex.clone()),
-        given: entry.list(|a| &a.given).iter().chain(entry.list(|a| &a.solves)).map(|g| g.value.clone()).collect(),
-        assumptions: entry.list(|a| &a.where_).iter().map(|p| p.value.clone()).collect(),
+        given: entry.given(None).into_iter().chain(entry.list(|a| &a.solves)).map(|g| g.value.clone()).collect(),
+        assumptions: entry.wheres(None).iter().map(|p| p.value.clone()).collect(),
         because: annotation.and_then(|a| a.because.clone()),
         reason: None,
         links: Vec::new(),
@@ -88,6 +97,8 @@ pub fn blank(book: &Book, index: usize) -> Judgement {
         as_expected: false,
         sensitivity: None,
         suggestions: Vec::new(),
+        lost_bits: None,
+        unfinished: None,
         micros: 0,
         problem: None,
     }
@@ -138,7 +149,7 @@ pub(super) fn judge_version(book: &Book, index: usize, version: Version, options
     let entry = &book.entries[index];
     if let Some(circle) = book.circle(index) {
         // The document's own problems say where.
-        let reason = format!("the premises go in a circle: {}", circle.join(" → "));
+        let reason = format!("the premises go in a circle: {circle}");
         return Outcome::without_links(Verdict::Undecided, reason, None);
     }
     let statement = match book.statement(index, version) {
@@ -153,7 +164,18 @@ pub(super) fn judge_version(book: &Book, index: usize, version: Version, options
             return Outcome::without_links(verdict, reason, Some(trouble::unclear(entry, version, &unclear)));
         }
     };
-    judge_statement(&Source { book, index, version }, &statement, options)
+    let source = Source::new(book, index, version).until(Deadline::after(options.budget));
+    judge_statement(&source, &statement, options)
+}
+
+/// Judges the links of another formula in the place of an equation; none where it cannot be taken apart.
+pub fn judge_tree(book: &Book, index: usize, tree: &Node, options: &Options) -> Vec<LinkJudgement> {
+    let options = Options { evidence: false, ..options.clone() };
+    let source = Source::new(book, index, Version::Printed).until(Deadline::after(options.budget));
+    match book.statement_of(index, tree) {
+        Ok(statement) => judge_statement(&source, &statement, &options).links,
+        Err(_) => Vec::new(),
+    }
 }
 
 /// Judges what an equation states, in the words of any version of it.
@@ -168,24 +190,26 @@ pub(super) fn judge_statement(source: &Source, statement: &Statement, options: &
     }
     let mut known: Vec<Clause> = Vec::new();
     let mut links = Vec::new();
-    let law = is_law(entry);
-    for clause in &statement.clauses {
-        if law || defines(book, index, clause) {
+    for (k, clause) in statement.clauses.iter().enumerate() {
+        let source = &source.at(k);
+        if defines(book, index, clause) {
             links.push(match source.claim(clause, &entry.scope, &known) {
                 Ok(_) => definition(clause),
                 Err(obstacle) => obstructed(unjudged(clause), source, clause, &obstacle),
             });
             known.push(clause.clone());
         } else {
-            links.push(judge_link(source, clause, &entry.scope, &known, options));
+            let link = judge_link(source, clause, &entry.scope, &known, options);
+            let equality = matches!(clause.rel, Rel::Eq | Rel::Equiv) || semantics::is_geometric(clause.rel);
+            if equality && kind(book, index) == "law" && link.verdict != Verdict::Holds {
+                links.push(taken_as_law(link, source, clause, &known, options));
+                known.push(clause.clone());
+            } else {
+                links.push(link);
+            }
         }
     }
     Outcome::of(links)
-}
-
-/// A law or a condition that the notes set up, and that others rest on: it must be understood, but it follows from nothing.
-fn is_law(entry: &Entry) -> bool {
-    entry.annotation().is_some_and(|a| a.because.is_some() && a.kind.as_ref().is_some_and(|k| k.value == "law"))
 }
 
 /// An equation without a relation: a statement, if the annotation says so and why.
@@ -203,6 +227,24 @@ fn nothing_to_evaluate(entry: &Entry, version: Version) -> Outcome {
     }
 }
 
+/// A law that does not follow from its premises is taken as given, if any state satisfies it together with them.
+fn taken_as_law(
+    link: LinkJudgement,
+    source: &Source,
+    clause: &Clause,
+    known: &[Clause],
+    options: &Options,
+) -> LinkJudgement {
+    match law::satisfying_states(source, clause, known, options) {
+        Ok(0) => LinkJudgement { reason: Some("a law that no state satisfies".into()), ..link },
+        Ok(states) => {
+            let reason = Some("a law: taken as given, and there are states that satisfy it".into());
+            LinkJudgement { states, reason, ..definition(clause) }
+        }
+        Err(_) => link,
+    }
+}
+
 /// A solution is judged by putting it into what it is said to solve.
 fn judge_solution(source: &Source, clauses: &[Clause], options: &Options) -> Outcome {
     let solved = match source.solved() {
@@ -213,7 +255,7 @@ fn judge_solution(source: &Source, clauses: &[Clause], options: &Options) -> Out
             return Outcome::without_links(Verdict::Undecided, obstacle_text(&obstacle), problem);
         }
     };
-    let links: Vec<LinkJudgement> = solved
+    let mut links: Vec<LinkJudgement> = solved
         .iter()
         .map(|(clause, scope)| {
             let mut link = judge_link(source, clause, scope, clauses, options);
@@ -221,6 +263,17 @@ fn judge_solution(source: &Source, clauses: &[Clause], options: &Options) -> Out
             link
         })
         .collect();
+    if let (Verdict::Holds, Some(clause)) = (worst(&links), clauses.first()) {
+        let generality = match general::defect(source, clauses, &solved) {
+            Ok(None) => None,
+            Ok(Some(defect)) => {
+                let (verdict, strength) = (Verdict::Fails, Some(Strength::Numeric));
+                Some(LinkJudgement { verdict, strength, reason: Some(defect), ..unjudged(clause) })
+            }
+            Err(obstacle) => Some(obstructed(unjudged(clause), source, clause, &obstacle)),
+        };
+        links.extend(generality);
+    }
     Outcome::of(links)
 }
 
@@ -235,7 +288,7 @@ pub(super) fn defines(book: &Book, index: usize, clause: &Clause) -> bool {
         return false;
     }
     let entry = &book.entries[index];
-    let premises = entry.list(|a| &a.where_).iter().chain(&entry.scope.assume);
+    let premises = entry.wheres(None).into_iter().chain(&entry.scope.assume);
     let premises: Vec<Formula> = premises.map(|p| Formula::new(&p.value)).collect();
     let new_name = |node: &Node| {
         let pattern = crate::semantics::pattern_of(&entry.scope, node);
@@ -287,6 +340,7 @@ fn unjudged(clause: &Clause) -> LinkJudgement {
         problem: None,
         exact: None,
         inexact: None,
+        lost_bits: None,
     }
 }
 
@@ -370,11 +424,16 @@ fn obstructed(mut judgement: LinkJudgement, source: &Source, clause: &Clause, ob
 }
 
 /// A message with the piece of LaTeX it is about.
+/// The most of a formula that is quoted in a reason, in bytes.
+const LONGEST_PIECE: usize = 120;
+
 fn place(latex: &str, message: &str, span: &std::ops::Range<usize>, help: Option<&str>) -> String {
     let piece = latex.get(span.clone()).unwrap_or_default().trim();
     let mut text = message.to_owned();
     if !piece.is_empty() && !message.contains(piece) {
-        text.push_str(&format!(", at `{piece}`"));
+        let end = piece.floor_char_boundary(LONGEST_PIECE);
+        let more = if end < piece.len() { " …" } else { "" };
+        text.push_str(&format!(", at `{}{more}`", &piece[..end]));
     }
     if let Some(help) = help {
         text.push_str(&format!(" ({help})"));
@@ -397,7 +456,7 @@ fn kind(book: &Book, index: usize) -> String {
         "inequality"
     } else if a.maps.is_some() {
         "transformation"
-    } else if !a.given.is_empty() || !a.where_.is_empty() {
+    } else if !entry.given(None).is_empty() || !entry.wheres(None).is_empty() {
         "derived"
     } else {
         "identity"
@@ -413,8 +472,15 @@ impl Judgement {
         self.counterexample = self.links.iter().find_map(|l| l.counterexample.clone());
         let decisive = self.links.iter().filter(|l| l.verdict == self.verdict);
         self.strength = decisive.filter_map(|l| l.strength).max_by_key(|s| s.weakness());
-        if self.links.iter().all(|l| l.verdict == Verdict::Definition) && !self.links.is_empty() && self.kind != "law" {
+        let definition = self.links.iter().all(|l| l.verdict == Verdict::Definition) && !self.links.is_empty();
+        if definition && self.kind != "law" {
             self.kind = "definition".into();
+        }
+        let lost: Vec<LostBits> = self.links.iter().filter_map(|l| l.lost_bits).collect();
+        if !lost.is_empty() {
+            let mean = lost.iter().map(|l| l.mean).sum::<f64>() / lost.len() as f64;
+            let worst = lost.iter().map(|l| l.worst).fold(0.0, f64::max);
+            self.lost_bits = Some(LostBits { mean: (10.0 * mean).round() / 10.0, worst });
         }
         if self.reason.is_none() {
             self.reason = self.links.iter().find(|l| l.verdict == self.verdict).and_then(|l| l.reason.clone());

@@ -25,6 +25,9 @@ impl Premises {
         let mut premises = Premises::default();
         let mut rest = Vec::new();
         for &(a, b) in pairs {
+            if graph.cut_short().is_some() {
+                return premises;
+            }
             if a == b {
                 continue;
             }
@@ -129,7 +132,7 @@ impl Premises {
             if times >= highest.max(1) {
                 continue;
             }
-            if derivatives.len() > MOST_RESIDUALS {
+            if derivatives.len() > MOST_RESIDUALS || graph.cut_short().is_some() {
                 break;
             }
             let derivative = graph.time_derivative(residual, t);
@@ -162,7 +165,7 @@ impl Premises {
                     reached.extend(own);
                 }
             }
-            if !grown {
+            if !grown || graph.deadline().has_passed() {
                 break;
             }
         }

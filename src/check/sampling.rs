@@ -3,7 +3,8 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::expr::{Expr, Node, SymId, Tape, Workspace};
+use crate::expr::{Deadline, Expr, Node, SymId, Tape, Workspace};
+use crate::latex::ast::Rel;
 use crate::number::{Number, Real, Tracked};
 
 use super::claim::{Claim, Pair};
@@ -46,11 +47,13 @@ pub struct Sampler<'c> {
     /// Its premises compiled.
     pub system: System,
     /// For each pair of each branch: residual, lhs, rhs, sum of magnitudes.
-    tape: Tape,
+    pub(super) tape: Tape,
     /// The pairs' numbers by branch.
     branches: Vec<usize>,
     /// Starts for unknowns that one side gives: the unknown's place and the tape of the other side.
     hints: Vec<(usize, Tape)>,
+    /// What must be positive.
+    pub(super) ordered: Tape,
 }
 
 impl<'c> Sampler<'c> {
@@ -63,14 +66,23 @@ impl<'c> Sampler<'c> {
         }
         let mut targets = outputs.clone();
         targets.extend(extra);
+        let ordered = restricting(claim, &targets);
+        targets.extend(&ordered);
         let kept: BTreeSet<SymId> = claim.small.iter().map(|(s, _)| *s).collect();
         let wish = Wish { solve: &claim.solve, free: &kept };
         let residuals = claim.premises.residuals.clone();
         let system = System::new(&mut claim.world, &residuals, &targets, &wish, random)?;
+        NoState::check(&mut claim.world, "writing both sides out")?;
         let hints = hints(claim, &system);
         let tape = Tape::compile(&claim.world.graph, &outputs);
         let branches = claim.branches.iter().map(Vec::len).collect();
-        Ok(Sampler { claim, system, tape, branches, hints })
+        let ordered = Tape::compile(&claim.world.graph, &ordered);
+        Ok(Sampler { claim, system, tape, branches, hints, ordered })
+    }
+
+    /// When the time is used up.
+    pub fn deadline(&self) -> Deadline {
+        self.claim.world.graph.deadline()
     }
 
     /// Draws states until enough satisfy the premises; the last eighth near the ends of the ranges.
@@ -82,16 +94,20 @@ impl<'c> Sampler<'c> {
     ) -> Result<Vec<State>, NoState> {
         let mut states = Vec::with_capacity(count);
         let mut last = NoState::Diverges;
+        let deadline = self.deadline();
         for k in 0..count {
             let hard = k >= count - count / 8 && count >= 8;
             for _ in 0..TRIES {
+                if deadline.has_passed() {
+                    return Err(NoState::CutShort(deadline.used_up("solving the premises")));
+                }
                 let (mut state, start) = self.system.draw(random, hard, fixed);
                 match self.system.solve(&mut state, &start) {
-                    Ok(()) if self.is_defined(&state) => {
+                    Ok(()) if self.is_defined(&state) && self.is_allowed(&state) => {
                         states.push(state);
                         break;
                     }
-                    Ok(()) => {}
+                    Ok(()) => last = NoState::Diverges,
                     Err(e) => last = e,
                 }
             }
@@ -113,6 +129,12 @@ impl<'c> Sampler<'c> {
             }
         }
         start
+    }
+
+    /// Whether the premises that say what is greater hold at a state.
+    pub fn is_allowed(&self, state: &State) -> bool {
+        let inputs: Vec<f64> = self.ordered.inputs().iter().map(|s| state.values[s.index()]).collect();
+        self.ordered.eval(&inputs, &(), &mut Workspace::default()).iter().all(|x| *x > 0.0)
     }
 
     /// Whether all sides are numbers at a state; where no state is, the judgement says so.
@@ -173,8 +195,22 @@ impl<'c> Sampler<'c> {
             lhs: shown(&value.lhs, 12),
             rhs: shown(&value.rhs, 12),
             component: pair.name.clone(),
+            certificate: None,
+            uncertified: None,
         }
     }
+}
+
+/// What must be positive at a state, by the premises that say what is greater and speak of the claim's symbols. The
+/// border, where both sides are equal, is left out: it has no states to speak of.
+fn restricting(claim: &mut Claim, targets: &[Expr]) -> Vec<Expr> {
+    let graph = &mut claim.world.graph;
+    let all: Vec<Expr> = targets.iter().chain(&claim.premises.residuals).copied().collect();
+    let known = graph.symbols(&all);
+    let related: Vec<_> =
+        claim.ordered.iter().filter(|(_, e)| !graph.symbols(&[*e]).is_disjoint(&known)).copied().collect();
+    let positive = |(rel, e)| if matches!(rel, Rel::Lt | Rel::Le) { graph.neg(e) } else { e };
+    related.into_iter().map(positive).collect()
 }
 
 /// A value in decimal; what cannot be told from zero is shown as zero.
@@ -208,6 +244,7 @@ pub fn no_state_text(reason: &NoState) -> String {
         NoState::Unsolvable => "no state was found at which all premises hold: they contradict each other, or have no solution in the ranges of the symbols",
         NoState::Diverges => "no state was found at which the premises hold and both sides are numbers; check the premises, and the ranges of the symbols",
         NoState::Contradiction => "the premises contradict each other at the sampled states",
+        NoState::CutShort(why) => why,
     }
     .to_owned()
 }

@@ -7,7 +7,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::expr::{SymId, Tape, Workspace};
+use crate::expr::{Deadline, SymId, Tape, Workspace};
 use crate::latex::ast::{Node, Rel};
 use crate::number::{Df64, Number, Tracked};
 use crate::semantics::{self, Clause, ErrorKind, Side, Statement, World};
@@ -85,7 +85,7 @@ impl<'b> Trial<'b> {
         links: &[LinkJudgement],
         options: &Options,
     ) -> Option<Self> {
-        let source = Source { book, index, version };
+        let source = Source::new(book, index, version).until(Deadline::after(options.budget));
         let statement = book.statement(index, version).ok()?;
         let entry = &book.entries[index];
         let solution = !entry.list(|a| &a.solves).is_empty();
@@ -94,13 +94,20 @@ impl<'b> Trial<'b> {
         for (k, clause) in statement.clauses.iter().enumerate().filter(|_| !solution) {
             let verdict = links.get(k).map_or(Verdict::Undecided, |l| l.verdict);
             let bench =
-                (verdict != Verdict::Definition).then(|| Bench::new(&source, clause, &known, options)).flatten();
+                (verdict != Verdict::Definition).then(|| Bench::new(&source.at(k), clause, &known, options)).flatten();
             if verdict == Verdict::Definition {
                 known.push(clause.clone());
             }
             prepared.push(Link { verdict, bench });
         }
-        Some(Trial { source, options: options.clone(), statement, links: prepared, solution })
+        // Whether another formula fails is asked thousands of times, and needs no proof.
+        let options = Options { evidence: false, ..options.clone() };
+        Some(Trial { source, options, statement, links: prepared, solution })
+    }
+
+    /// When the time for trying formulas is used up.
+    pub fn deadline(&self) -> Deadline {
+        self.source.deadline
     }
 
     /// Judges a formula in the place of the original.
@@ -133,16 +140,71 @@ impl<'b> Trial<'b> {
             .unwrap_or(Outcome::Holds)
     }
 
-    /// Whether a formula says the same as the original, whatever the premises are: see [`sameness`].
+    /// What becomes of the links of these numbers in a formula with as many links as the original, whatever the others
+    /// do: the worst of them.
+    pub fn outcome_at(&mut self, tree: &Node, links: &[usize]) -> Outcome {
+        let Ok(statement) = self.source.book.statement_of(self.source.index, tree) else { return Outcome::Unclear };
+        if self.solution || statement.clauses.len() != self.links.len() {
+            return Outcome::Unclear;
+        }
+        let mut confirm = Vec::new();
+        for k in links.iter().copied() {
+            if statement.clauses[k] == self.statement.clauses[k] {
+                if self.links[k].verdict > Verdict::Asymptotic {
+                    return Outcome::Fails;
+                }
+                continue;
+            }
+            match self.quick(k, &statement.clauses[k]) {
+                Quick::Agrees | Quick::Elsewhere => confirm.push(k),
+                Quick::Differs => return Outcome::Fails,
+                Quick::Error(_) => return Outcome::Unclear,
+            }
+        }
+        let outcomes: Vec<Outcome> = confirm.into_iter().map(|k| self.link_in_full(&statement, k)).collect();
+        let bad = outcomes.iter().find(|o| !matches!(o, Outcome::Holds | Outcome::Definition));
+        let definition = outcomes.iter().find(|o| **o == Outcome::Definition);
+        *bad.or(definition).unwrap_or(&Outcome::Holds)
+    }
+
+    /// Whether a formula that holds says the same as the original, whatever the premises are: see [`sameness`].
     pub fn is_equivalent(&self, tree: &Node) -> bool {
         let Ok(statement) = self.source.book.statement_of(self.source.index, tree) else { return false };
-        let (own, other) = (&self.statement.clauses, &statement.clauses);
+        // An equation has one general solution, however its constants are named.
+        if self.solution && !self.source.book.entries[self.source.index].list(|a| &a.general).is_empty() {
+            return true;
+        }
+        self.same_clauses(&self.statement.clauses, &statement.clauses)
+    }
+
+    /// Whether two formulas in the place of the original say the same as each other.
+    pub fn say_the_same(&self, a: &Node, b: &Node) -> bool {
+        let clauses = |tree| self.source.book.statement_of(self.source.index, tree).map(|s| s.clauses);
+        match (clauses(a), clauses(b)) {
+            (Ok(a), Ok(b)) => self.same_clauses(&a, &b),
+            _ => false,
+        }
+    }
+
+    /// Whether a clause of a formula that the original does not have says no more than 0 = 0: a side is 0, and the other
+    /// one is whatever the premises are.
+    pub fn says_nothing(&self, tree: &Node) -> bool {
+        let Ok(statement) = self.source.book.statement_of(self.source.index, tree) else { return false };
+        let random = self.random();
+        let new = statement.clauses.iter().filter(|c| !self.statement.clauses.contains(c));
+        new.into_iter().any(|c| sameness::is_trivial(&self.source, c, &random))
+    }
+
+    fn random(&self) -> Random {
+        Random::new(self.options.seed, &self.source.book.entries[self.source.index].equation.label)
+    }
+
+    fn same_clauses(&self, own: &[Clause], other: &[Clause]) -> bool {
         self.all_same(own, other) || self.all_same(&sameness::split(own), &sameness::split(other))
     }
 
     fn all_same(&self, own: &[Clause], other: &[Clause]) -> bool {
-        let label = &self.source.book.entries[self.source.index].equation.label;
-        let random = Random::new(self.options.seed, label);
+        let random = self.random();
         let same = |(a, b): (&Clause, &Clause)| a == b || sameness::same(&self.source, a, b, &random);
         own.len() == other.len() && own.iter().zip(other).all(same)
     }
@@ -221,7 +283,7 @@ impl<'b> Trial<'b> {
         let known: Vec<Clause> =
             definitions.filter(|(l, _)| l.verdict == Verdict::Definition).map(|(_, c)| c.clone()).collect();
         self.with_rising_states(&mut |options| {
-            let judged = judge_link(&self.source, clause, &entry.scope, &known, options);
+            let judged = judge_link(&self.source.at(k), clause, &entry.scope, &known, options);
             (judged.verdict, judged.strength)
         })
     }
@@ -266,7 +328,7 @@ fn outcome((verdict, strength): (Verdict, Option<Strength>)) -> Outcome {
 /// Whether a clause makes sense by itself.
 fn understood(source: &Source, clause: &Clause) -> Result<(), ErrorKind> {
     let scope = &source.book.entries[source.index].scope;
-    semantics::understand(&mut World::new(), scope, clause, true).map(|_| ()).map_err(|e| e.kind)
+    semantics::understand(&mut World::until(source.deadline), scope, clause, true).map(|_| ()).map_err(|e| e.kind)
 }
 
 impl Bench {
@@ -294,6 +356,10 @@ impl Bench {
             return Quick::Elsewhere;
         }
         let world = &mut self.claim.world;
+        // Where many formulas have filled the graph, the rest get one of their own each.
+        if world.graph.cut_short().is_some() {
+            return Quick::Elsewhere;
+        }
         let link = match semantics::understand(world, scope, &clause, true) {
             Ok(link) => link,
             Err(error) => return Quick::Error(error.kind),
@@ -302,6 +368,9 @@ impl Bench {
         for pair in pairs(world, &link, clause.rhs == Side::Constant) {
             let residual = self.claim.premises.resolve(&mut world.graph, pair.residual);
             outputs.extend([residual, world.graph.magnitude(residual)]);
+        }
+        if world.graph.cut_short().is_some() {
+            return Quick::Elsewhere;
         }
         let tape = Tape::compile(&world.graph, &outputs);
         if !self.cover(tape.inputs(), seed) {
@@ -327,8 +396,9 @@ impl Bench {
         let link = semantics::understand(world, scope, &clause, true).ok()?;
         let pairs = pairs(world, &link, clause.rhs == Side::Constant);
         let outputs: Vec<_> = pairs.iter().map(|p| self.claim.premises.resolve(&mut world.graph, p.residual)).collect();
+        let cut_short = world.graph.cut_short().is_some();
         let tape = Tape::compile(&world.graph, &outputs);
-        if !self.cover(tape.inputs(), seed) {
+        if cut_short || !self.cover(tape.inputs(), seed) {
             return None;
         }
         let mut work = Workspace::default();

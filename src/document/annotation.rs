@@ -13,6 +13,9 @@
 //! `aligned`, `array` ..) block: the row's first cell, with what stands before the block as its
 //! [`prefix`](super::Equation::prefix). Rows of an `aligned` with an empty label belong to the
 //! label below, `rows = ["", "", "411", "", "412"]`. An annotation with no other key than `rows` belongs to none of them.
+//!
+//! `[link.2]` with `given` or `where` holds premises of the second link alone (of a chain a = b = c, b = c). What follows from
+//! no law should be judged without it: with dω/dt = 0 given, I dω/dt = d(Iω)/dt would hold whatever the factors.
 
 use super::declaration::{KEYS as DECLARATION_KEYS, SymbolDeclaration, symbols};
 use super::place::{Span, Spanned};
@@ -35,8 +38,12 @@ pub struct EquationAnnotation {
     pub solve: Vec<Spanned<String>>,
     /// Labels of the equations that this one is claimed to solve.
     pub solves: Vec<Spanned<String>>,
+    /// The arbitrary constants of a solution that is claimed to be general.
+    pub general: Vec<Spanned<String>>,
     /// `where`: premises that the prose states.
     pub where_: Vec<Spanned<String>>,
+    /// Premises of single links.
+    pub link: Vec<LinkPremises>,
     /// Ranges for symbols in this equation, in their units.
     pub range: Vec<(Spanned<String>, [f64; 2])>,
     /// An approximation's small parameter.
@@ -67,15 +74,30 @@ pub struct EquationAnnotation {
     pub symbols: Vec<SymbolDeclaration>,
 }
 
+/// Premises of one link of a chain, beside those of the equation.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct LinkPremises {
+    /// Which link, from 1.
+    pub number: usize,
+    /// Where that number stands.
+    pub span: Span,
+    /// Labels of the equations it follows from.
+    pub given: Vec<Spanned<String>>,
+    /// `where`: premises that the prose states.
+    pub where_: Vec<Spanned<String>>,
+}
+
 /// The keys of an equation's annotation, those of declarations not included.
-pub const KEYS: [&str; 20] = [
+pub const KEYS: [&str; 22] = [
     "label",
     "for",
     "kind",
     "given",
     "solve",
     "solves",
+    "general",
     "where",
+    "link",
     "range",
     "small",
     "order",
@@ -145,7 +167,9 @@ pub(super) fn equation(table: &Table, span: Span, reader: &mut Reader) -> Equati
             "given" => found.given = reader.texts(key, value),
             "solve" => found.solve = reader.texts(key, value),
             "solves" => found.solves = reader.texts(key, value),
+            "general" => found.general = reader.texts(key, value),
             "where" => found.where_ = reader.texts(key, value),
+            "link" => found.link = links(key, value, reader),
             "range" => found.range = ranges(key, value, reader),
             "small" => found.small = reader.text(key, value),
             "order" => found.order = reader.number(key, value),
@@ -179,6 +203,29 @@ fn label(key: &Spanned<String>, value: &Value, reader: &mut Reader) -> Option<Sp
 fn ranges(key: &Spanned<String>, value: &Value, reader: &mut Reader) -> Vec<(Spanned<String>, [f64; 2])> {
     let entries = reader.table(key, value, r"range = { '\theta' = [0.2, 1.4] }");
     entries.iter().filter_map(|(name, value)| Some((name.clone(), reader.range(name, value)?))).collect()
+}
+
+fn links(key: &Spanned<String>, value: &Value, reader: &mut Reader) -> Vec<LinkPremises> {
+    let example = r"[link.2], and below it given = ['28']";
+    let mut found = Vec::new();
+    for (name, value) in reader.table(key, value, example) {
+        let Some(number) = name.value.parse().ok().filter(|n| *n > 0) else {
+            let message = format!("`{}` is not the number of a link", name.value);
+            let problem = super::Problem::error("document::link", message, name.span.clone());
+            reader.problems.push(problem.label("links are counted from 1").help(format!("for example: {example}")));
+            continue;
+        };
+        let mut premises = LinkPremises { number, span: name.span.clone(), ..LinkPremises::default() };
+        for (key, value) in reader.table(name, value, example) {
+            match key.value.as_str() {
+                "given" => premises.given = reader.texts(key, value),
+                "where" => premises.where_ = reader.texts(key, value),
+                _ => reader.unknown(key, "a link", &["given", "where"]),
+            }
+        }
+        found.push(premises);
+    }
+    found
 }
 
 /// Values keep the digits they are written with.

@@ -25,7 +25,7 @@ mod toml;
 #[cfg(test)]
 mod tests;
 
-pub use annotation::EquationAnnotation;
+pub use annotation::{EquationAnnotation, LinkPremises};
 pub use declaration::{Arguments, BasisDeclaration, Declarations, SymbolDeclaration};
 pub use place::{Lines, Span, Spanned};
 pub use problem::{Problem, Severity};

@@ -1,5 +1,6 @@
 //! Scalar expressions: a graph with shared subexpressions, and calculus on it.
 
+mod deadline;
 pub mod diff;
 mod display;
 pub mod field;
@@ -10,7 +11,8 @@ mod rewrite;
 pub mod tape;
 
 pub use crate::number::Func;
-pub use graph::{Expr, Graph, Node, SymId, SymbolInfo};
+pub use deadline::{Cut, Deadline};
+pub use graph::{Expr, Graph, MOST_NODES, Node, SymId, SymbolInfo};
 pub use tape::{Tape, Workspace};
 
 #[cfg(test)]

@@ -8,6 +8,7 @@ use super::error::{Error, Result};
 use super::juxtaposition::Item;
 use super::name::spelling;
 use super::scope::{Basis, EntryKind};
+use super::statement::{MOST_ASSIGNMENTS, assignments, too_many};
 use super::units::Dimension;
 use super::value::{self, Matrix, Value};
 use super::world::{Facts, Quantity};
@@ -226,11 +227,9 @@ impl Elaborator<'_> {
         {
             let name = spelling(letter);
             let (from, to) = (self.integer(&link.rhs)?, self.integer(last)?);
-            if to.saturating_sub(from) > 10_000 {
-                return Err(Error::unsupported(
-                    format!("a sum of {} terms is too long", to.saturating_sub(from)),
-                    span,
-                ));
+            let count = i128::from(to) - i128::from(from) + 1;
+            if count > MOST_ASSIGNMENTS {
+                return Err(too_many("a sum", count, span));
             }
             return Ok((from..=to).map(|v| vec![(name.clone(), v)]).collect());
         }
@@ -242,18 +241,7 @@ impl Elaborator<'_> {
             return Err(Error::undeclared("this sum names no declared index", span)
                 .with_help("declare the index under [symbols], as in 'i' = { index = [1, 3] }"));
         }
-        let mut assignments = vec![Vec::new()];
-        for letter in letters {
-            let Some((from, to)) = self.scope.index(&letter) else { continue };
-            assignments = assignments
-                .into_iter()
-                .flat_map(|a: Vec<(String, i64)>| (from..=to).map(move |v| (a.clone(), v)))
-                .map(|(mut a, v)| {
-                    a.push((letter.clone(), v));
-                    a
-                })
-                .collect();
-        }
+        let assignments = assignments(self.scope, &letters, span)?;
         match sub {
             Some(Node { kind: Kind::Chain { first: Some(first), links }, .. }) => {
                 let kept = assignments.into_iter().map(|a| Ok((self.condition(first, links, &a)?, a)));

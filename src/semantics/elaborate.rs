@@ -11,6 +11,12 @@ use super::scope::{Entry, EntryKind, Scope, pattern};
 use super::value::{self, Matrix, Value};
 use super::world::{Facts, Joint, Quantity, Role, World};
 
+/// The most that is told of how a value was read, in bytes: otherwise a sum of n terms takes n² to read.
+const LONGEST_TEXT: usize = 4000;
+
+/// How many names may stand for each other one after another.
+const MOST_ALIASES: usize = 20;
+
 /// A value with the way it was read, every operation in brackets.
 #[derive(Clone, Debug)]
 pub struct Typed {
@@ -22,7 +28,12 @@ pub struct Typed {
 
 impl Typed {
     pub(super) fn new(value: Value, text: impl Into<String>) -> Self {
-        Typed { value, text: text.into() }
+        let mut text = text.into();
+        if text.len() > LONGEST_TEXT {
+            text.truncate(text.floor_char_boundary(LONGEST_TEXT));
+            text.push('…');
+        }
+        Typed { value, text }
     }
 }
 
@@ -36,16 +47,19 @@ pub struct Elaborator<'w> {
     pub(super) indices: Vec<(String, i64)>,
     /// Whether ± means +, for a formula with branches.
     pub(super) upper: bool,
+    /// How many names stand for names here.
+    aliases: usize,
 }
 
 impl<'w> Elaborator<'w> {
     /// An elaborator with the given indices fixed, on the upper or lower branch of ±.
     pub fn new(world: &'w mut World, scope: &'w Scope, indices: Vec<(String, i64)>, upper: bool) -> Self {
-        Elaborator { world, scope, indices, upper }
+        Elaborator { world, scope, indices, upper, aliases: 0 }
     }
 
     /// The value of an expression.
     pub fn value(&mut self, node: &Node) -> Result<Typed> {
+        self.world.step(&node.span)?;
         match &node.kind {
             Kind::Number(text) => self.number(text, &node.span),
             Kind::Symbol(_) | Kind::Styled(..) | Kind::Accent(..) | Kind::Scripts { .. } | Kind::Dots(..) => {
@@ -163,7 +177,9 @@ impl<'w> Elaborator<'w> {
                 let square = value::dot3(graph, v, v);
                 graph.sqrt(square)
             }
-            Value::Matrix(m) if m.rows == m.cols && m.rows <= 6 => value::determinant(graph, m),
+            Value::Matrix(m) if m.rows == m.cols && m.rows <= value::LARGEST_DETERMINANT => {
+                value::determinant(graph, m)
+            }
             other => return Err(Error::shape(format!("{} has no magnitude", other.shape()), span)),
         };
         Ok(Typed::new(Value::Scalar(e), format!("|{}|", inner.text)))
@@ -192,8 +208,8 @@ impl<'w> Elaborator<'w> {
         let matrix = Matrix { rows: rows.len(), cols, data };
         let text = format!("[{}x{cols}: {}]", rows.len(), text.join(", "));
         if env == MatrixEnv::Determinant {
-            if matrix.rows != cols || cols > 6 {
-                return Err(Error::shape("a determinant needs as many rows as columns, at most 6", span));
+            if matrix.rows != cols || cols > value::LARGEST_DETERMINANT {
+                return Err(Error::shape(value::DETERMINANTS, span));
             }
             let det = value::determinant(&mut self.world.graph, &matrix);
             return Ok(Typed::new(Value::Scalar(det), format!("det{text}")));
@@ -336,7 +352,9 @@ impl<'w> Elaborator<'w> {
         let entry = entry.clone();
         let name = instance(&entry.pattern, &indices);
         let name = match entry.hidden.iter().find(|letter| self.index_value(letter).is_none()) {
-            Some(letter) => return Err(Error::undeclared(format!("the index {letter} of {name} has no value here"), &node.span)),
+            Some(letter) => {
+                return Err(Error::undeclared(format!("the index {letter} of {name} has no value here"), &node.span));
+            }
             None if entry.hidden.is_empty() => name,
             None => format!("{name}_{{{}}}", indices.iter().map(i64::to_string).collect::<Vec<_>>().join(",")),
         };
@@ -359,12 +377,12 @@ impl<'w> Elaborator<'w> {
             EntryKind::Same(other) => {
                 let depth = self.indices.len();
                 self.indices.extend(entry.letters.iter().cloned().zip(indices));
-                let value = self.value(other);
+                let value = self.alias(&name, other, &node.span);
                 self.indices.truncate(depth);
                 return value.map(Some);
             }
             EntryKind::Component { of, basis, axis } => {
-                let whole = self.value(of)?;
+                let whole = self.alias(&name, of, &node.span)?;
                 let component = self.component(&whole, basis, *axis, &node.span)?;
                 return Ok(Some(Typed::new(component.value, name)));
             }
@@ -375,6 +393,19 @@ impl<'w> Elaborator<'w> {
             }
         };
         Ok(Some(Typed::new(value, shown_name(node))))
+    }
+
+    /// What a name stands for, which may be a name that stands for something.
+    fn alias(&mut self, name: &str, other: &Node, span: &Span) -> Result<Typed> {
+        if self.aliases >= MOST_ALIASES {
+            let message =
+                format!("{name} stands for a name that stands for a name, and so on for {MOST_ALIASES} times");
+            return Err(Error::unsupported(message, span).with_help("do the declarations with `same` go in a circle?"));
+        }
+        self.aliases += 1;
+        let value = self.value(other);
+        self.aliases -= 1;
+        value
     }
 
     fn scalar_symbol(&mut self, entry: &Entry, name: &str, tex: String) -> Expr {

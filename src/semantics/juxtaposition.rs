@@ -305,6 +305,10 @@ impl Elaborator<'_> {
 
     fn call(&mut self, name: &str, argument: Typed, span: &Span) -> Result<Typed> {
         if let (Value::Matrix(m), "det") = (&argument.value, name) {
+            if m.rows != m.cols || m.rows > value::LARGEST_DETERMINANT {
+                let of = argument.value.shape();
+                return Err(Error::shape(format!("the determinant of {of}: {}", value::DETERMINANTS), span));
+            }
             let det = value::determinant(&mut self.world.graph, m);
             return Ok(Typed::new(Value::Scalar(det), format!("det({})", argument.text)));
         }

@@ -33,8 +33,8 @@ pub use geometric::is_geometric;
 pub use name::spelling;
 pub use scope::{Basis, Entry, EntryKind, Scope, pattern_of};
 pub use statement::{
-    Clause, Instance, Side, Statement, TypedLink, begins_with_relation, every_value, has_branches, mentions, relation_latex,
-    statement, understand,
+    Clause, Instance, Side, Statement, TypedLink, begins_with_relation, every_value, has_branches, mentions,
+    relation_latex, statement, understand,
 };
 pub use terms::{PrintedTerm, printed_terms};
 pub use value::{Matrix, Value};

@@ -126,7 +126,11 @@ impl Elaborator<'_> {
         });
         let zero = self.world.graph.int(0);
         let nothing = inner.value.components().iter().all(|e| self.world.graph.diff(*e, dt) == zero && *e != zero);
-        if failed || nothing { Err(without_differential(span)) } else { Ok(Typed::new(value, format!("∫({})", inner.text))) }
+        if failed || nothing {
+            Err(without_differential(span))
+        } else {
+            Ok(Typed::new(value, format!("∫({})", inner.text)))
+        }
     }
 
     /// The time at which an integral up to something that depends on time begins: t_0, where the notes have it.
@@ -202,7 +206,8 @@ mod tests {
     #[test]
     fn an_integral_has_its_rate_and_starts_at_zero() {
         let mut world = World::new();
-        let (work, power) = (scalar(&mut world, r"\int \vec{f} \cdot d\vec{r}"), scalar(&mut world, r"\vec{f} \cdot \dot{\vec{r}}"));
+        let (work, power) =
+            (scalar(&mut world, r"\int \vec{f} \cdot d\vec{r}"), scalar(&mut world, r"\vec{f} \cdot \dot{\vec{r}}"));
         assert!(world.remembers(work) && !world.remembers(power));
         assert_eq!(world.rate(work), power);
         let start = world.start(work);

@@ -1,7 +1,7 @@
 //! From a parsed equation to its links: what is said to equal what.
 
 use crate::expr::Expr;
-use crate::latex::ast::{Delim, Kind, Link, MatrixEnv, Node, Rel, Sign};
+use crate::latex::ast::{Delim, Kind, Link, MatrixEnv, Node, Rel, Sign, Span};
 use crate::latex::to_latex;
 
 use super::elaborate::Elaborator;
@@ -180,6 +180,11 @@ pub fn mentions(scope: &Scope, node: &Node, found: &mut std::collections::HashSe
         found.insert(pattern);
         return;
     }
+    // In `I_1^2` stands `I_1`.
+    if let Kind::Scripts { base, primes, sub: Some(sub), sup: Some(_) } = &node.kind {
+        let kind = Kind::Scripts { base: base.clone(), primes: *primes, sub: Some(sub.clone()), sup: None };
+        mentions(scope, &Node::new(kind, node.span.clone()), found);
+    }
     for child in node.children() {
         mentions(scope, child, found);
     }
@@ -312,12 +317,12 @@ pub fn understand(world: &mut World, scope: &Scope, clause: &Clause, upper: bool
     if let Side::Node(rhs) = &clause.rhs {
         sides.push(rhs);
     }
+    world.begin_steps();
     let items: Vec<Item> = sides.iter().map(|n| Item::Factor(n)).collect();
     let letters = Elaborator::new(world, scope, Vec::new(), upper).unbound_indices(&items);
     let rel = if is_geometric(clause.rel) { Rel::Eq } else { clause.rel };
-    let mut link =
-        TypedLink { rel, instances: Vec::new(), lhs_text: String::new(), rhs_text: String::new() };
-    for assignment in assignments(scope, &letters) {
+    let mut link = TypedLink { rel, instances: Vec::new(), lhs_text: String::new(), rhs_text: String::new() };
+    for assignment in assignments(scope, &letters, &clause.lhs.span)? {
         let tag = assignment.iter().map(|(l, v)| format!("{l} = {v}")).collect::<Vec<_>>().join(", ");
         let mut elaborator = Elaborator::new(world, scope, assignment, upper);
         let lhs = elaborator.value(&clause.lhs)?;
@@ -335,6 +340,7 @@ pub fn understand(world: &mut World, scope: &Scope, clause: &Clause, upper: bool
         link.instances.push(Instance { tag: (!tag.is_empty()).then_some(tag), lhs: left, rhs: right });
         (link.lhs_text, link.rhs_text) = (lhs.text, rhs_text);
     }
+    world.check(&clause.lhs.span)?;
     Ok(link)
 }
 
@@ -347,7 +353,7 @@ pub fn every_value(world: &mut World, scope: &Scope, node: &Node) -> Result<Valu
     if letters.is_empty() {
         return Elaborator::new(world, scope, Vec::new(), true).value(node).map(|typed| typed.value);
     }
-    let each = assignments(scope, &letters).into_iter();
+    let each = assignments(scope, &letters, &node.span)?.into_iter();
     let values = each.map(|indices| Ok(Elaborator::new(world, scope, indices, true).value(node)?.value));
     values.collect::<Result<_>>().map(Value::Tuple)
 }
@@ -420,11 +426,21 @@ fn column_of(tuple: &Value) -> Value {
     }
 }
 
+/// The most terms of a sum, and instances of an equation: each costs time, and a handful shows what any number does.
+pub(super) const MOST_ASSIGNMENTS: i128 = 10_000;
+
 /// All assignments of values to indices; one empty assignment where there are none.
-pub(super) fn assignments(scope: &Scope, letters: &[String]) -> Vec<Vec<(String, i64)>> {
+///
+/// # Errors
+/// There are too many.
+pub(super) fn assignments(scope: &Scope, letters: &[String], span: &Span) -> Result<Vec<Vec<(String, i64)>>> {
     let mut all = vec![Vec::new()];
     for letter in letters {
         let Some((from, to)) = scope.index(letter) else { continue };
+        let count = (i128::from(to) - i128::from(from) + 1) * all.len() as i128;
+        if count > MOST_ASSIGNMENTS {
+            return Err(too_many(&format!("what runs over {}", letters.join(", ")), count, span));
+        }
         let mut next = Vec::new();
         for assignment in &all {
             for v in from..=to {
@@ -435,7 +451,13 @@ pub(super) fn assignments(scope: &Scope, letters: &[String]) -> Vec<Vec<(String,
         }
         all = next;
     }
-    all
+    Ok(all)
+}
+
+/// More assignments than are written out.
+pub(super) fn too_many(what: &str, count: i128, span: &Span) -> Error {
+    Error::limit(format!("{what} has {count} terms; at most {MOST_ASSIGNMENTS} are written out"), span)
+        .with_help("let the index run over a handful of values: 'i' = { index = [1, 3] }")
 }
 
 /// The LaTeX of a relation.

@@ -186,6 +186,12 @@ pub fn sum(graph: &mut Graph, terms: &[Expr]) -> Expr {
     }
 }
 
+/// The most rows of a determinant: an expansion of n rows has n! terms.
+pub const LARGEST_DETERMINANT: usize = 6;
+
+/// Which determinants there are, in words.
+pub const DETERMINANTS: &str = "a determinant needs as many rows as columns, at most 6";
+
 /// The determinant by expansion along the first row; for the small matrices of lecture notes.
 pub fn determinant(graph: &mut Graph, m: &Matrix) -> Expr {
     if m.rows == 1 {
