@@ -2,6 +2,7 @@
 
 pub mod diff;
 mod display;
+mod elliptic;
 pub mod field;
 pub mod graph;
 mod magnitude;
@@ -9,10 +10,12 @@ pub(crate) mod ratio;
 mod rewrite;
 pub mod tape;
 
-pub use crate::number::Func;
+pub use crate::number::{Elliptic, Func};
 pub use graph::{Expr, Graph, Node, SymId, SymbolInfo};
 pub use tape::{Tape, Workspace};
 
+#[cfg(test)]
+mod elliptic_tests;
 #[cfg(test)]
 mod random_tests;
 #[cfg(test)]
