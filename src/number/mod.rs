@@ -28,6 +28,7 @@ mod jet;
 mod lanes;
 #[cfg(feature = "rug")]
 mod mpfr;
+pub mod quadrature;
 mod reduction;
 mod tracked;
 

@@ -8,7 +8,7 @@ pub(in crate::number) trait Arithmetic: Clone {
     /// A machine number, of this number's precision.
     fn constant(&self, x: f64) -> Self;
     /// π, of this number's precision.
-    fn pi(&self) -> Self;
+    fn half_turn(&self) -> Self;
     /// a + b.
     fn sum(&self, b: &Self) -> Self;
     /// a - b.
@@ -18,7 +18,7 @@ pub(in crate::number) trait Arithmetic: Clone {
     /// a / b.
     fn quotient(&self, b: &Self) -> Self;
     /// √a.
-    fn root(&self) -> Self;
+    fn square_root(&self) -> Self;
     /// -a.
     fn opposite(&self) -> Self;
     /// The machine number nearest to it, but for some units in the last place.
@@ -62,7 +62,7 @@ impl<N: Number> Arithmetic for N {
     fn constant(&self, x: f64) -> Self {
         self.like(x)
     }
-    fn pi(&self) -> Self {
+    fn half_turn(&self) -> Self {
         N::pi(&self.context())
     }
     fn sum(&self, b: &Self) -> Self {
@@ -77,7 +77,7 @@ impl<N: Number> Arithmetic for N {
     fn quotient(&self, b: &Self) -> Self {
         self.over(b)
     }
-    fn root(&self) -> Self {
+    fn square_root(&self) -> Self {
         Number::root(self)
     }
     fn opposite(&self) -> Self {
@@ -146,8 +146,8 @@ impl<W: Arithmetic> Arithmetic for Spread<W> {
     fn constant(&self, x: f64) -> Self {
         Spread { value: self.value.constant(x), radius: 0.0, unit: self.unit }
     }
-    fn pi(&self) -> Self {
-        Spread { value: self.value.pi(), radius: 0.0, unit: self.unit }
+    fn half_turn(&self) -> Self {
+        Spread { value: self.value.half_turn(), radius: 0.0, unit: self.unit }
     }
     fn sum(&self, b: &Self) -> Self {
         self.made(self.value.sum(&b.value), self.radius + b.radius)
@@ -170,7 +170,7 @@ impl<W: Arithmetic> Arithmetic for Spread<W> {
         let radius = if distance == 0.0 { 0.0 } else { distance / b.least() };
         self.made(value, radius)
     }
-    fn root(&self) -> Self {
+    fn square_root(&self) -> Self {
         let low = self.least();
         let radius = match self.radius == 0.0 {
             true => 0.0,
@@ -178,7 +178,7 @@ impl<W: Arithmetic> Arithmetic for Spread<W> {
             false if low > 0.0 => self.radius / (low.sqrt() + (self.value.approx().abs() / UP).sqrt()),
             false => f64::INFINITY,
         };
-        self.made(self.value.root(), radius)
+        self.made(self.value.square_root(), radius)
     }
     fn opposite(&self) -> Self {
         Spread { value: self.value.opposite(), ..*self }

@@ -50,7 +50,7 @@ pub(super) fn rf<W: Arithmetic>(x: &W, y: &W, z: &W) -> W {
         if is_near(&a, spread, step) {
             return expanded_rf(&a, &x, &y);
         }
-        let [rx, ry, rz] = [x.root(), y.root(), z.root()];
+        let [rx, ry, rz] = [x.square_root(), y.square_root(), z.square_root()];
         let lambda = rx.product(&ry.sum(&rz)).sum(&ry.product(&rz));
         [x, y, z] = [&x, &y, &z].map(|x| x.sum(&lambda).by(0.25));
         a = a.sum(&lambda).by(0.25);
@@ -74,7 +74,7 @@ fn expanded_rf<W: Arithmetic>(a: &W, x: &W, y: &W) -> W {
         (6_930.0, &e3.square()),
         (15_015.0, &e22.product(&e3)),
     ];
-    series(240_240.0, terms, a).quotient(&a.root())
+    series(240_240.0, terms, a).quotient(&a.square_root())
 }
 
 /// R_C(x, y) of x ≥ 0 and y ≠ 0; its principal value where y is negative (DLMF 19.2.20).
@@ -84,7 +84,7 @@ pub(super) fn rc<W: Arithmetic>(x: &W, y: &W) -> W {
     }
     if sign(y) < 0.0 {
         let shifted = x.difference(y);
-        return x.quotient(&shifted).root().product(&rc(&shifted, &y.opposite()));
+        return x.quotient(&shifted).square_root().product(&rc(&shifted, &y.opposite()));
     }
     let (mut x, mut y) = (x.clone(), y.clone());
     let mut a = x.sum(&y).sum(&y).quotient(&x.constant(3.0));
@@ -93,7 +93,7 @@ pub(super) fn rc<W: Arithmetic>(x: &W, y: &W) -> W {
         if is_near(&a, spread, step) {
             return expanded_rc(&a, &y);
         }
-        let lambda = x.root().product(&y.root()).by(2.0).sum(&y);
+        let lambda = x.square_root().product(&y.square_root()).by(2.0).sum(&y);
         [x, y] = [&x, &y].map(|x| x.sum(&lambda).by(0.25));
         a = a.sum(&lambda).by(0.25);
     }
@@ -113,7 +113,7 @@ fn expanded_rc<W: Arithmetic>(a: &W, y: &W) -> W {
         (61_215.0, &s3.square()),
         (90_090.0, &s3.product(&s4)),
     ];
-    series(80_080.0, terms, a).quotient(&a.root())
+    series(80_080.0, terms, a).quotient(&a.square_root())
 }
 
 /// R_D(x, y, z) of x and y that are not negative, at most one of them zero, and a positive z; otherwise not finite.
@@ -143,8 +143,8 @@ fn third_kind<W: Arithmetic>(x: &W, y: &W, z: &W, p: Option<&W>) -> W {
             let rest = expanded_rj(&a, [&x, &y, &z], &p).product(&quarter);
             return rest.sum(&sum.by(6.0));
         }
-        let [rx, ry, rz] = [x.root(), y.root(), z.root()];
-        let rp = if degenerate { rz.clone() } else { p.root() };
+        let [rx, ry, rz] = [x.square_root(), y.square_root(), z.square_root()];
+        let rp = if degenerate { rz.clone() } else { p.square_root() };
         let lambda = rx.product(&ry.sum(&rz)).sum(&ry.product(&rz));
         let d = rp.sum(&rx).product(&rp.sum(&ry)).product(&rp.sum(&rz));
         let mut term = quarter.quotient(&d);
@@ -186,5 +186,5 @@ fn expanded_rj<W: Arithmetic>(a: &W, x: [&W; 3], p: &W) -> W {
         (675_675.0, &e22.product(&e3)),
         (-540_540.0, &e3.product(&e4).sum(&e2.product(&e5))),
     ];
-    series(4_084_080.0, terms, a).quotient(&a.product(&a.root()))
+    series(4_084_080.0, terms, a).quotient(&a.product(&a.square_root()))
 }

@@ -16,7 +16,7 @@ pub(super) fn agm<W: Arithmetic>(a: &W, b: &W) -> W {
     let (mut a, mut b) = (a.clone(), b.clone());
     for _ in 0..MOST_STEPS {
         let near = is_near(&a, &b);
-        (a, b) = (a.sum(&b).by(0.5), a.product(&b).root());
+        (a, b) = (a.sum(&b).by(0.5), a.product(&b).square_root());
         if near {
             return a;
         }
@@ -29,7 +29,7 @@ pub(super) fn quarter_period<W: Arithmetic>(k1: &W) -> W {
     if k1.log2_size() == f64::NEG_INFINITY {
         return k1.infinite();
     }
-    k1.pi().quotient(&agm(&k1.constant(1.0), k1).by(2.0))
+    k1.half_turn().quotient(&agm(&k1.constant(1.0), k1).by(2.0))
 }
 
 /// Bulirsch's complete integral: ∫ (α cos² + β sin²) / (cos² + p sin²) dθ/√(cos² + k'² sin²) from 0 to π/2, for positive p
@@ -42,7 +42,7 @@ pub(super) fn complete<W: Arithmetic>(k1: &W, p: &W, alpha: &W, beta: &W) -> W {
     }
     // Twice the two means at every step: that saves the halving.
     let (mut arithmetic, mut geometric) = (k1.constant(1.0), k1.clone());
-    let mut p = p.root();
+    let mut p = p.square_root();
     let (mut a, mut b) = (alpha.clone(), beta.quotient(&p));
     for _ in 0..MOST_STEPS {
         let product = arithmetic.product(&geometric);
@@ -54,9 +54,9 @@ pub(super) fn complete<W: Arithmetic>(k1: &W, p: &W, alpha: &W, beta: &W) -> W {
         if near {
             let numerator = b.sum(&a.product(&arithmetic));
             let denominator = arithmetic.product(&arithmetic.sum(&p));
-            return k1.pi().by(0.5).product(&numerator).quotient(&denominator);
+            return k1.half_turn().by(0.5).product(&numerator).quotient(&denominator);
         }
-        geometric = product.root().by(2.0);
+        geometric = product.square_root().by(2.0);
     }
     k1.undefined()
 }

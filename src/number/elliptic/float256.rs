@@ -174,7 +174,7 @@ impl Arithmetic for Float256 {
         let (mantissa, exponent) = if field == 0 { (rest, -1074) } else { (rest | 1 << 52, field - 1075) };
         Self::normalised(x < 0.0, exponent + 64, [mantissa, 0, 0, 0, 0])
     }
-    fn pi(&self) -> Self {
+    fn half_turn(&self) -> Self {
         PI
     }
     fn sum(&self, b: &Self) -> Self {
@@ -218,7 +218,7 @@ impl Arithmetic for Float256 {
         let divisor = Float256 { exponent: 0, ..*b };
         self.product(&Self::reciprocal(&divisor)).scaled(-b.exponent)
     }
-    fn root(&self) -> Self {
+    fn square_root(&self) -> Self {
         if self.is_undefined() || self.negative {
             return UNDEFINED;
         }
@@ -286,7 +286,7 @@ mod tests {
                 (a.difference(&b), Float::with_val(600, &x - &y)),
                 (a.product(&b), Float::with_val(600, &x * &y)),
                 (a.quotient(&b), Float::with_val(600, &x / &y)),
-                (size.root(), Float::with_val(600, x.abs().sqrt())),
+                (size.square_root(), Float::with_val(600, x.abs().sqrt())),
             ];
             for (worst, (got, expect)) in worst.iter_mut().zip(cases) {
                 let error = Float::with_val(600, exact(&got) - &expect) / &expect;
@@ -305,7 +305,7 @@ mod tests {
             assert_eq!(ZERO.constant(x).approx(), x);
         }
         let one = ZERO.constant(1.0);
-        assert!(!one.quotient(&ZERO).is_known() && !one.opposite().root().is_known());
+        assert!(!one.quotient(&ZERO).is_known() && !one.opposite().square_root().is_known());
         assert!(!ZERO.constant(f64::NAN).is_known() && !ZERO.constant(f64::INFINITY).is_known());
         assert_eq!(one.difference(&one), ZERO);
         assert_eq!(one.opposite().sum(&one), ZERO);

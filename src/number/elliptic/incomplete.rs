@@ -18,7 +18,7 @@ struct Amplitude<W> {
 
 impl<W: Arithmetic> Amplitude<W> {
     fn new(phi: &W) -> Self {
-        let pi = phi.pi();
+        let pi = phi.half_turn();
         let turns = phi.quotient(&pi).approx().round();
         let rest = match turns {
             0.0 => phi.clone(),
@@ -30,7 +30,7 @@ impl<W: Arithmetic> Amplitude<W> {
         let beyond = size.approx() > std::f64::consts::FRAC_PI_4;
         // With k = 0, sc is the tangent.
         let t = tangent(&if beyond { pi.by(0.5).difference(&size) } else { size }, &one);
-        let long = one.quotient(&t.square().more(1.0).root());
+        let long = one.quotient(&t.square().more(1.0).square_root());
         let short = t.product(&long);
         let (sin, cos) = if beyond { (long, short) } else { (short, long) };
         Amplitude { turns, sin: if negative { sin.opposite() } else { sin }, cos }
@@ -101,8 +101,15 @@ pub(super) fn legendre<W: Arithmetic>(f: Elliptic, phi: &W, modulus: &Modulus<W>
     let beyond = if modulus.m1.approx() < 0.0 { parts.cancelled(&parts.delta2) } else { 0.0 };
     let cancelled = size.map_or(0.0, |first| subtracted(&first, &rest));
     let value = with_turns(f, &parts, rest, None, modulus);
-    let power = if f == Elliptic::IncompleteG { 1.5 } else { 0.5 };
-    let lost = steepness(phi, &value, power * parts.delta2.log2_size()) + beyond + cancelled;
+    // log₂ of the integrand: 1/Δ, Δ, sin²/Δ, sin²/Δ³.
+    let (delta, square) = (parts.delta2.log2_size() / 2.0, 2.0 * parts.amplitude.sin.log2_size());
+    let integrand = match f {
+        Elliptic::IncompleteF => -delta,
+        Elliptic::IncompleteE => delta,
+        Elliptic::IncompleteD => square - delta,
+        _ => square - 3.0 * delta,
+    };
+    let lost = steepness(phi, &value, integrand) + beyond + cancelled;
     Outcome { value, lost }
 }
 
@@ -116,8 +123,8 @@ pub(super) fn third<W: Arithmetic>(phi: &W, n: &W, complement: &W, modulus: &Mod
         .map(|(m, divisor)| if m.approx() < 0.0 { parts.cancelled(divisor) } else { 0.0 });
     let cancelled = subtracted(&first, &rest);
     let value = with_turns(Elliptic::IncompletePi, &parts, rest, Some(complement), modulus);
-    let slope = parts.delta2.log2_size() / 2.0 + p.log2_size();
-    Outcome { lost: steepness(phi, &value, slope) + beyond[0] + beyond[1] + cancelled, value }
+    let integrand = -parts.delta2.log2_size() / 2.0 - p.log2_size();
+    Outcome { lost: steepness(phi, &value, integrand) + beyond[0] + beyond[1] + cancelled, value }
 }
 
 /// log₂ of how much smaller a difference is than what it is the difference of.
@@ -125,9 +132,10 @@ fn subtracted<W: Arithmetic>(first: &W, rest: &W) -> f64 {
     if first.log2_size() == f64::NEG_INFINITY { 0.0 } else { (first.log2_size() - rest.log2_size()).max(0.0) }
 }
 
-/// log₂ of how much the relative error of φ grows, where the integrand is 2^-`slope`.
-fn steepness<W: Arithmetic>(phi: &W, value: &W, slope: f64) -> f64 {
-    if phi.log2_size() == f64::NEG_INFINITY { 0.0 } else { (phi.log2_size() - slope - value.log2_size()).max(0.0) }
+/// log₂ of how much the relative error of φ grows, by log₂ of the integrand.
+fn steepness<W: Arithmetic>(phi: &W, value: &W, integrand: f64) -> f64 {
+    let zero = phi.log2_size() == f64::NEG_INFINITY || value.log2_size() == f64::NEG_INFINITY;
+    if zero { 0.0 } else { (phi.log2_size() + integrand - value.log2_size()).max(0.0) }
 }
 
 /// Adds the complete integral for each quarter turn.

@@ -34,7 +34,7 @@ impl<W: Arithmetic> Modulus<W> {
 
     /// k' of k ≤ 1.
     pub fn complementary(&self) -> W {
-        self.m1.root()
+        self.m1.square_root()
     }
 }
 
@@ -54,7 +54,7 @@ pub(super) fn tangent<W: Arithmetic>(u: &W, m1: &W) -> W {
 fn doubled<W: Arithmetic>(t: &W, m1: &W) -> W {
     let t2 = t.square();
     let mt2 = m1.product(&t2);
-    let root = t2.more(1.0).product(&mt2.more(1.0)).root();
+    let root = t2.more(1.0).product(&mt2.more(1.0)).square_root();
     t.by(2.0).product(&root).quotient(&t.constant(1.0).difference(&mt2.product(&t2)))
 }
 
@@ -128,9 +128,9 @@ impl<W: Arithmetic> Reduced<W> {
 
     fn triple(&self, modulus: &Modulus<W>) -> Triple<W> {
         let t2 = self.t.square();
-        let cn = t2.constant(1.0).quotient(&t2.more(1.0).root());
+        let cn = t2.constant(1.0).quotient(&t2.more(1.0).square_root());
         let sn = self.t.product(&cn);
-        let dn = modulus.m1.product(&t2).more(1.0).root().product(&cn);
+        let dn = modulus.m1.product(&t2).more(1.0).square_root().product(&cn);
         let sn = if self.negative { sn.opposite() } else { sn };
         let (sn, cn, dn) = if self.is_odd() {
             let k1 = modulus.complementary();
@@ -147,7 +147,7 @@ impl<W: Arithmetic> Reduced<W> {
         let tangent = if self.is_odd() { modulus.complementary().product(&self.t) } else { self.t.clone() };
         let angle = arctangent(&tangent);
         let angle = if self.negative { angle.opposite() } else { angle };
-        if self.quarters == 0.0 { angle } else { angle.sum(&angle.pi().by(0.5).by(self.quarters)) }
+        if self.quarters == 0.0 { angle } else { angle.sum(&angle.half_turn().by(0.5).by(self.quarters)) }
     }
 }
 

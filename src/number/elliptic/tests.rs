@@ -1,9 +1,15 @@
-//! Values against MPFR's arithmetic-geometric mean, against integrals as they are defined, and between functions; undefined arguments.
+//! Values against definitions, against other implementations and against MPFR; undefined arguments; bounds of errors.
 
-use super::super::{Df64, Number};
+use super::super::{Df64, Func, Number};
 use super::Elliptic::{self, *};
 use super::*;
 use crate::number::conformance::Random;
+
+#[cfg(feature = "rug")]
+mod accuracy;
+mod definitions;
+mod oracles;
+mod undefined;
 
 fn call<N: Number>(f: Elliptic, x: &[N]) -> N {
     let x: Vec<&N> = x.iter().collect();
@@ -11,6 +17,3 @@ fn call<N: Number>(f: Elliptic, x: &[N]) -> N {
     value.set_elliptic(f, &x);
     value
 }
-
-#[cfg(feature = "rug")]
-mod accuracy;
