@@ -1,9 +1,10 @@
 //! The command line: arguments, progress, exit codes.
 
+use std::collections::HashSet;
 use std::io::{IsTerminal, Write};
 use std::path::PathBuf;
 use std::process::ExitCode;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use clap::{Parser, Subcommand, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
@@ -55,6 +56,9 @@ enum Command {
         /// Search what was probably meant, for each equation that fails.
         #[arg(long)]
         suggest: bool,
+        /// All that costs more than a verdict: --mutants and --suggest.
+        #[arg(long)]
+        deep: bool,
     },
     /// Show how one equation is read and what it is at three states.
     Explain {
@@ -79,6 +83,10 @@ struct Sampling {
     /// Decide in so many bits (needs the feature `rug`); otherwise in double-double.
     #[arg(long, value_name = "BITS", value_parser = precision)]
     precision: Option<u32>,
+    /// The time that an equation may take; then it is undecided. Its correction, its mutants and the search for what was
+    /// meant have as much each.
+    #[arg(long, value_name = "SECONDS", default_value_t = 10, value_parser = clap::value_parser!(u32).range(1..=86_400))]
+    budget: u32,
     /// The number of threads; one for each core otherwise.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
     jobs: Option<u16>,
@@ -108,7 +116,9 @@ fn precision(text: &str) -> Result<u32, String> {
 
 impl Sampling {
     fn options(&self) -> Options {
-        Options { seed: self.seed, states: self.states as usize, precision: self.precision }
+        let (seed, states, precision) = (self.seed, self.states as usize, self.precision);
+        let budget = Some(Duration::from_secs(self.budget.into()));
+        Options { seed, states, precision, budget, ..Options::default() }
     }
 }
 
@@ -124,7 +134,8 @@ pub fn main() -> ExitCode {
         }
     };
     let outcome = match arguments.command {
-        Command::Verify { paths, out, format, sampling, only, mutants, suggest } => {
+        Command::Verify { paths, out, format, sampling, only, mutants, suggest, deep } => {
+            let (mutants, suggest) = (mutants || deep, suggest || deep);
             let request = Request { paths, options: sampling.options(), only, mutants, suggest };
             in_pool(sampling.jobs, || verify_command(&request, &out, format))
         }
@@ -170,9 +181,10 @@ fn verify_command(request: &Request, out: &std::path::Path, format: Format) -> m
 fn show_problems(verified: &Verified) {
     let surprising = verified.report.equations.iter().filter(|e| !e.as_expected);
     let mut problems: Vec<&Problem> = verified.problems.iter().collect();
+    let told: HashSet<(usize, usize)> = problems.iter().map(|p| (p.span.start, p.span.end)).collect();
     for problem in surprising.flat_map(|e| e.problems()) {
         // A premise that does not exist has been told already.
-        if !verified.problems.iter().any(|p| p.span == problem.span) {
+        if !told.contains(&(problem.span.start, problem.span.end)) {
             problems.push(problem);
         }
     }

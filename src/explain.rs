@@ -83,6 +83,9 @@ fn verdict(out: &mut String, judgement: &Judgement) -> std::fmt::Result {
     if let Some(bits) = judgement.bits {
         writeln!(out, "  both sides agree to {bits} bits at {} states", judgement.states)?;
     }
+    if let Some(lost) = judgement.lost_bits {
+        writeln!(out, "  doubles lose {} bits, at worst {}", lost.mean, lost.worst)?;
+    }
     for link in &judgement.links {
         let reason = link.reason.as_ref().map(|r| format!(": {r}")).unwrap_or_default();
         writeln!(out, "  {}  {}{reason}", name(link.verdict), link.latex)?;
@@ -91,6 +94,14 @@ fn verdict(out: &mut String, judgement: &Judgement) -> std::fmt::Result {
         }
         if let Some(why) = &link.inexact {
             writeln!(out, "    not exact: {why}")?;
+        }
+        if let Some(counterexample) = &link.counterexample {
+            if let Some(certificate) = &counterexample.certificate {
+                writeln!(out, "    certified: {certificate}")?;
+            }
+            if let Some(why) = &counterexample.uncertified {
+                writeln!(out, "    not certified: {why}")?;
+            }
         }
         if let Some(order) = &link.order {
             writeln!(out, "    order in {}: {:.3} measured, {} claimed", order.small, order.measured, order.claimed)?;

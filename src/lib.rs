@@ -13,8 +13,9 @@
 //! | 4 | `report`, `diagnose` |
 //! | 3 | `semantics`, `check`, `scene` |
 //! | 2 | `expr`, `integrator` |
-//! | 1 | `document`, `latex`, `number` |
+//! | 1 | `document`, `latex`, `number`, `breakdown` |
 
+pub mod breakdown;
 pub mod check;
 pub mod cli;
 pub mod diagnose;

@@ -1,16 +1,17 @@
 //! The pipeline: documents in, judgements out.
 
-use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 use std::time::Instant;
 
 use rayon::prelude::*;
 
+use crate::breakdown::caught;
 use crate::check::dimension::Survey;
 use crate::check::verdict::{DocumentReport, Judgement, Verdict};
 use crate::check::{self, Book, Options};
 use crate::diagnose::{correct, sensitivity};
 use crate::document::{self, Document, ReadError};
+use crate::expr::Deadline;
 use crate::report::{Run, charts};
 
 /// The notes that Kenzan brings along, by the path they have in the repository.
@@ -60,15 +61,16 @@ pub fn documents(paths: &[PathBuf]) -> Result<Vec<Document>, ReadError> {
 /// Judges a document's equations, each on its own: one that panics costs no other. `judged` is called after each.
 pub fn verify(document: Document, request: &Request, judged: &(dyn Fn() + Sync)) -> Verified {
     let book = Book::new(&document);
-    let survey = catch_unwind(AssertUnwindSafe(|| Survey::new(&book))).ok();
+    let survey = caught(|| Survey::new(&book)).ok();
     let wanted: Vec<usize> = (0..book.entries.len())
         .filter(|k| request.only.is_empty() || request.only.contains(&book.entries[*k].equation.label))
         .collect();
     let judge = |index: &usize| {
-        let outcome = catch_unwind(AssertUnwindSafe(|| judged_and_diagnosed(&book, *index, request)));
-        let mut judgement = outcome.unwrap_or_else(|_| broken(&book, *index));
+        let outcome = caught(|| judged_and_diagnosed(&book, *index, request));
+        let mut judgement = outcome.unwrap_or_else(|panic| broken(&book, *index, &panic));
         if let Some(survey) = &survey {
-            survey.report(*index, &mut judgement);
+            // Dimensions decide no verdict: without them the judgement stands.
+            let _ = caught(|| survey.report(*index, &mut judgement));
         }
         judged();
         judgement
@@ -88,21 +90,30 @@ pub fn verify(document: Document, request: &Request, judged: &(dyn Fn() + Sync))
 
 /// The judgement on an equation, with the diagnosis that was asked for.
 fn judged_and_diagnosed(book: &Book, index: usize, request: &Request) -> Judgement {
-    let mut judgement = check::judge(book, index, &request.options);
+    #[cfg(test)]
+    assert_ne!(book.entries[index].equation.label, tests::BREAKS, "a test");
+    let options = &request.options;
+    let mut judgement = check::judge(book, index, options);
     if request.mutants {
-        judgement.sensitivity = sensitivity::sensitivity(book, index, &judgement, &request.options);
+        let deadline = Deadline::after(options.budget);
+        judgement.sensitivity = sensitivity::sensitivity(book, index, &judgement, options);
+        judgement.unfinished = deadline.has_passed().then(|| deadline.used_up("trying the mutants"));
     }
     if request.suggest {
-        judgement.suggestions = correct::suggestions(book, index, &judgement, &request.options);
+        let deadline = Deadline::after(options.budget);
+        judgement.suggestions = correct::suggestions(book, index, &judgement, options);
+        if deadline.has_passed() {
+            judgement.unfinished = Some(deadline.used_up("searching what was meant"));
+        }
     }
     judgement
 }
 
-/// The judgement on an equation at which Kenzan itself broke down.
-fn broken(book: &Book, index: usize) -> Judgement {
+/// The judgement on an equation at which Kenzan itself broke down: the panic's message and place.
+fn broken(book: &Book, index: usize, panic: &str) -> Judgement {
     Judgement {
         verdict: Verdict::Unreadable,
-        reason: Some("Kenzan broke down at this equation: please report it with the notes".into()),
+        reason: Some(format!("Kenzan broke down at this equation, please report it with the notes: {panic}")),
         ..check::blank(book, index)
     }
 }
@@ -125,4 +136,26 @@ pub fn all_as_expected(verified: &[Verified]) -> bool {
     let judgements = verified.iter().all(|v| v.report.equations.iter().all(|e| e.as_expected));
     let problems = verified.iter().all(|v| v.problems.iter().all(|p| p.severity != document::Severity::Error));
     judgements && problems
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// The label of an equation at which the judgement panics.
+    pub const BREAKS: &str = "13th";
+
+    #[test]
+    fn an_equation_that_breaks_kenzan_costs_no_other() {
+        let notes = "<!-- kenzan\n[symbols]\n'a' = { range = [1, 2] }\n-->\n$$ a + a = 2 a \\tag{1} $$\n\n\
+            $$ a = a \\tag{13th} $$\n\n$$ a a = a^2 \\tag{3} $$\n";
+        let document = document::parse(Path::new("notes.md"), notes);
+        let verified = verify(document, &Request::default(), &|| ());
+        let verdicts: Vec<Verdict> = verified.report.equations.iter().map(|e| e.verdict).collect();
+        assert_eq!(verdicts, [Verdict::Holds, Verdict::Unreadable, Verdict::Holds]);
+        let reason = verified.report.equations[1].reason.as_deref().unwrap();
+        assert!(reason.contains("please report it") && reason.contains("a test"), "{reason}");
+        assert!(reason.contains("(src/verify.rs:"), "{reason}");
+        assert!(!all_as_expected(&[verified]));
+    }
 }

@@ -7,7 +7,10 @@ use kenzan::document::{Document, read};
 use std::path::{Path, PathBuf};
 
 /// Bundled notes, the original's path beside the repository, and the last label: they are numbered from 1 on.
-const NOTES: [(&str, &str, usize); 1] = [("notes/gyroscope.md", "../shared/notes/gyroscope.md", 85)];
+const NOTES: [(&str, &str, usize); 2] = [
+    ("notes/gyroscope.md", "../shared/notes/gyroscope.md", 85),
+    ("notes/celestial-mechanics-3.md", "../shared/notes/celestial-mechanics-3.md", 537),
+];
 
 fn path(relative: &str) -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join(relative)

@@ -3,9 +3,17 @@
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
-use crate::document::{Document, Equation, EquationAnnotation, Item, LinkPremises, Problem, Spanned};
+use crate::document::{Declarations, Document, Equation, EquationAnnotation, Item, LinkPremises, Problem, Spanned};
 use crate::latex::{self, ParseError, ast::Node};
 use crate::semantics::{self, Scope, Statement};
+
+use super::circle::{Circle, circles};
+
+/// The longest formula that is judged, in bytes: ten pages.
+const LONGEST: usize = 1 << 16;
+
+/// The most equations that one after another continue each other.
+const LONGEST_CHAIN: usize = 100;
 
 /// A formula in LaTeX with its tree.
 #[derive(Clone, Debug)]
@@ -19,8 +27,14 @@ pub struct Formula {
 impl Formula {
     /// Reads LaTeX.
     pub fn new(latex: &str) -> Self {
-        Formula { latex: latex.to_owned(), tree: latex::parse(latex) }
+        let tree = if latex.len() <= LONGEST { latex::parse(latex) } else { Err(too_long(latex)) };
+        Formula { latex: latex.to_owned(), tree }
     }
+}
+
+fn too_long(latex: &str) -> ParseError {
+    let message = format!("a formula of {} bytes; at most {LONGEST} are read", latex.len());
+    ParseError { message, span: 0..0, help: Some("is a `$$` missing somewhere before?".into()) }
 }
 
 /// Which version of an equation is meant.
@@ -49,8 +63,9 @@ pub struct Entry {
     pub correction: Option<Formula>,
     /// The equation before it, which it continues if it begins with a relation.
     pub previous: Option<usize>,
-    /// The patterns of the declared symbols it mentions.
-    pub mentions: HashSet<String>,
+    /// The declared symbols it mentions: the pattern, and where it is declared, which tells apart the symbols of different
+    /// sections that are spelt alike.
+    pub mentions: HashMap<String, usize>,
 }
 
 impl Entry {
@@ -96,19 +111,22 @@ impl Entry {
 }
 
 /// A document ready to be judged.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, Default)]
 pub struct Book {
     /// The equations in order.
     pub entries: Vec<Entry>,
     /// What is wrong with the declarations.
     pub problems: Vec<Problem>,
     labels: HashMap<String, usize>,
+    /// The equations that mention a symbol, in order, by its pattern.
+    mentioned: HashMap<String, Vec<usize>>,
+    circles: HashMap<usize, Circle>,
 }
 
 impl Book {
     /// Parses every formula of a document and works out the scope of every equation.
     pub fn new(document: &Document) -> Self {
-        let mut book = Book { entries: Vec::new(), problems: Vec::new(), labels: HashMap::new() };
+        let mut book = Book::default();
         let mut scopes = Scopes::default();
         let mut section = String::new();
         let mut previous = None;
@@ -119,12 +137,12 @@ impl Book {
                     section.clone_from(&s.title);
                 }
                 Item::Declarations(block) => {
-                    let problems = scopes.current().declare(block);
+                    let problems = scopes.declare(block);
                     book.problems.extend(problems);
                 }
                 Item::Equation(equation) => {
                     let index = book.entries.len();
-                    book.add(equation, scopes.current(), &section, previous);
+                    book.add(equation, &scopes.current(), &section, previous);
                     if !equation.inline {
                         previous = Some(index);
                     }
@@ -135,11 +153,11 @@ impl Book {
         book
     }
 
-    fn add(&mut self, equation: &Equation, scope: &Scope, section: &str, previous: Option<usize>) {
+    fn add(&mut self, equation: &Equation, scope: &Arc<Scope>, section: &str, previous: Option<usize>) {
         let annotation = equation.annotation.as_ref();
         let scope = match annotation {
-            Some(a) => scope.with_local(&a.symbols, &mut self.problems),
-            None => scope.clone(),
+            Some(a) if !a.symbols.is_empty() => Arc::new(scope.with_local(&a.symbols, &mut self.problems)),
+            _ => Arc::clone(scope),
         };
         let formula = |text: &Option<Spanned<String>>| text.as_ref().map(|t| Formula::new(&t.value));
         let printed = Formula::new(&format!("{}{}", equation.prefix, equation.masked));
@@ -151,10 +169,15 @@ impl Book {
                 semantics::mentions(&scope, tree, &mut mentions);
             }
         }
+        let mentions: HashMap<String, usize> =
+            mentions.into_iter().filter_map(|m| scope.get(&m).map(|e| e.declared).map(|d| (m, d))).collect();
         self.labels.entry(equation.label.clone()).or_insert(self.entries.len());
+        for pattern in mentions.keys() {
+            self.mentioned.entry(pattern.clone()).or_default().push(self.entries.len());
+        }
         self.entries.push(Entry {
             equation: equation.clone(),
-            scope: Arc::new(scope),
+            scope,
             section: section.to_owned(),
             printed,
             reading,
@@ -175,6 +198,10 @@ impl Book {
 
     /// References to equations and links that do not exist, and `given`s that go in a circle.
     fn check_references(&mut self) {
+        let given = |e: &Entry| {
+            e.given(None).iter().filter_map(|g| self.find(&g.value)).map(|(k, _)| k).collect::<Vec<usize>>()
+        };
+        self.circles = circles(&self.entries.iter().map(given).collect::<Vec<_>>());
         let mut problems = Vec::new();
         for (index, entry) in self.entries.iter().enumerate() {
             problems.extend(self.missing_links(index));
@@ -187,12 +214,11 @@ impl Book {
                     ));
                 }
             }
-            // Each circle is reported once, at its first equation.
-            if let Some(circle) = self.circle(index)
-                && circle.iter().all(|label| self.labels.get(label).is_none_or(|k| *k >= index))
+            if let (Some(circle), Some(text)) = (self.circles.get(&index), self.circle(index))
+                && circle.is_told_at(index)
                 && let Some(first) = entry.given(None).first()
             {
-                let message = format!("the premises go in a circle: {}", circle.join(" → "));
+                let message = format!("the premises go in a circle: {text}");
                 problems.push(
                     Problem::error("kenzan::circle", message, first.span.clone())
                         .help("an equation cannot be derived from one that is derived from it"),
@@ -205,6 +231,9 @@ impl Book {
     /// Premises for links that an equation has not.
     fn missing_links(&self, index: usize) -> Vec<Problem> {
         let premises = self.entries[index].annotation().into_iter().flat_map(|a| &a.link);
+        if premises.clone().next().is_none() {
+            return Vec::new();
+        }
         let versions = [Version::Printed, Version::Corrected];
         let counts = versions.iter().filter_map(|v| self.statement(index, *v).ok()).map(|s| s.clauses.len());
         let Some(count) = counts.max() else { return Vec::new() };
@@ -218,26 +247,9 @@ impl Book {
             .collect()
     }
 
-    /// The circle of `given`s through an equation, by labels, if there is one.
-    pub fn circle(&self, start: usize) -> Option<Vec<String>> {
-        let label = |i: usize| self.entries[i].equation.label.clone();
-        let mut seen = HashSet::new();
-        let mut stack = vec![vec![start]];
-        while let Some(path) = stack.pop() {
-            let at = path[path.len() - 1];
-            for given in self.entries[at].given(None) {
-                let Some((next, _)) = self.find(&given.value) else { continue };
-                if next == start {
-                    return Some(path.iter().chain([&start]).map(|i| label(*i)).collect());
-                }
-                if seen.insert(next) {
-                    let mut longer = path.clone();
-                    longer.push(next);
-                    stack.push(longer);
-                }
-            }
-        }
-        None
+    /// The circle of `given`s through an equation, by labels, if there is one: `1 → 2 → 1`.
+    pub fn circle(&self, index: usize) -> Option<String> {
+        Some(self.circles.get(&index)?.text(|k| self.entries[k].equation.label.clone()))
     }
 
     /// An equation taken apart. One that begins with a relation continues the equation before, as corrected.
@@ -257,6 +269,9 @@ impl Book {
             (self.entries[at].previous, semantics::begins_with_relation(chain[chain.len() - 1].1))
         {
             at = previous;
+            if chain.len() > LONGEST_CHAIN {
+                return Err(before(at, &format!("more than {LONGEST_CHAIN} equations continue each other")));
+            }
             let formula = self.entries[at].formula(Version::Corrected);
             chain.push((at, formula.tree.as_ref().map_err(|e| before(at, &e.message))?));
         }
@@ -270,10 +285,17 @@ impl Book {
         statement.ok_or_else(|| Unclear::Meaning(semantics::Error::unsupported("nothing is printed here", &(0..0))))
     }
 
-    /// Whether a symbol is mentioned by an equation before this one that does not rest on this one.
+    /// Whether a symbol is mentioned by an equation before this one that does not rest on this one, or by one that this
+    /// one rests on.
     pub fn mentioned_before(&self, index: usize, pattern: &str) -> bool {
-        let rests = |e: &Entry| e.given(None).iter().any(|g| self.find(&g.value).is_some_and(|(k, _)| k == index));
-        self.entries[..index].iter().any(|e| e.mentions.contains(pattern) && !rests(e))
+        let declared = self.entries[index].scope.get(pattern).map(|e| e.declared);
+        let given = |e: &Entry| -> Vec<usize> {
+            e.given(None).iter().filter_map(|g| self.find(&g.value)).map(|(k, _)| k).collect()
+        };
+        let rests = |e: &Entry| given(e).contains(&index);
+        let mut earlier = self.mentioned.get(pattern).into_iter().flatten().take_while(|k| **k < index);
+        earlier.any(|k| self.entries[*k].mentions.get(pattern).copied() == declared && !rests(&self.entries[*k]))
+            || given(&self.entries[index]).iter().any(|k| self.entries[*k].mentions.contains_key(pattern))
     }
 }
 
@@ -290,12 +312,12 @@ pub enum Unclear {
 
 /// The scopes of the sections that are open, the innermost last.
 struct Scopes {
-    open: Vec<(u8, Scope)>,
+    open: Vec<(u8, Arc<Scope>)>,
 }
 
 impl Default for Scopes {
     fn default() -> Self {
-        Scopes { open: vec![(0, Scope::default())] }
+        Scopes { open: vec![(0, Arc::default())] }
     }
 }
 
@@ -305,12 +327,19 @@ impl Scopes {
         while self.open.len() > 1 && self.open.last().is_some_and(|(l, _)| *l >= level) {
             self.open.pop();
         }
-        let scope = self.current().clone();
+        let scope = self.current();
         self.open.push((level, scope));
     }
 
-    fn current(&mut self) -> &mut Scope {
+    /// Takes in declarations for the innermost section; what cannot be taken in is returned.
+    fn declare(&mut self, block: &Declarations) -> Vec<Problem> {
         let last = self.open.len() - 1;
-        &mut self.open[last].1
+        // Equations and sections share a scope until it changes.
+        Arc::make_mut(&mut self.open[last].1).declare(block)
+    }
+
+    fn current(&self) -> Arc<Scope> {
+        let last = self.open.len() - 1;
+        Arc::clone(&self.open[last].1)
     }
 }

@@ -4,18 +4,20 @@ use std::collections::BTreeMap;
 
 use nalgebra::{DMatrix, DVector};
 
-use crate::expr::{Expr, Graph, SymId, Tape, Workspace};
+use crate::expr::{Deadline, Expr, Graph, SymId, Tape, Workspace};
 use crate::semantics::World;
 
 use super::newton::{Equations, descend};
 use super::random::{Random, draw};
-use super::system::{NoState, Source, Wish, source};
+use super::system::{DERIVING, NoState, Source, Wish, source};
 
 /// How many starts are tried for a solution of the premises.
 const TRIES: usize = 12;
 
 /// How many solutions are looked at, of each stage, for one that is no special case.
 const SOLUTIONS: usize = 4;
+/// The most entries of the premises' Jacobian: its singular values take seconds.
+const LARGEST_SYSTEM: usize = 200_000;
 
 /// What is left of a column of the scaled Jacobian beside those before it, for it to count as independent of them. The
 /// point at which the Jacobian is taken is known to some 1e-11.
@@ -48,8 +50,17 @@ pub fn choose(
     if residuals.is_empty() {
         return Ok((Vec::new(), Vec::new()));
     }
+    if residuals.len() * candidates.len() > LARGEST_SYSTEM {
+        return Err(NoState::CutShort(format!(
+            "the premises are {} equations in {} symbols, too many to be solved together: state fewer premises, or let the indices run over fewer values",
+            residuals.len(),
+            candidates.len()
+        )));
+    }
     let jacobian = world.graph.jacobian(residuals, candidates);
     let magnitudes: Vec<Expr> = residuals.iter().map(|r| world.graph.magnitude(*r)).collect();
+    NoState::check(world, DERIVING)?;
+    let deadline = world.graph.deadline();
     let sized: Vec<Expr> = residuals.iter().copied().chain(magnitudes).collect();
     let jacobian: Vec<Expr> = jacobian.into_iter().flatten().collect();
     let changes = |row: &[Expr]| row.iter().filter(|e| !world.graph.is_zero(**e)).count();
@@ -64,6 +75,9 @@ pub fn choose(
             (0..candidates.len()).filter(|k| moves(&world.graph, wish, candidates[*k]) <= stage).collect();
         let mut solutions = 0;
         for _ in 0..if movable.is_empty() { 0 } else { TRIES } {
+            if deadline.has_passed() {
+                return Err(NoState::CutShort(deadline.used_up("solving the premises")));
+            }
             let drawn = sources.iter().map(|(s, src)| (*s, draw(random, src.range, src.integer, false).to_f64()));
             let mut premises = Underdetermined {
                 values: &values,
@@ -73,6 +87,7 @@ pub fn choose(
                 movable: &movable,
                 at: drawn.collect(),
                 work: Workspace::default(),
+                deadline,
             };
             let Some(magnitudes) = premises.solve() else { continue };
             let j = premises.scaled_jacobian(candidates, &magnitudes);
@@ -126,6 +141,7 @@ struct Underdetermined<'t> {
     /// All symbols' values.
     at: BTreeMap<SymId, f64>,
     work: Workspace<f64>,
+    deadline: Deadline,
 }
 
 impl Underdetermined<'_> {
@@ -170,7 +186,7 @@ impl Equations for Underdetermined<'_> {
     }
 
     fn step(&self, residuals: &DVector<f64>, jacobian: &DMatrix<f64>) -> Option<DVector<f64>> {
-        if jacobian.iter().any(|x| !x.is_finite()) {
+        if self.deadline.has_passed() || jacobian.iter().any(|x| !x.is_finite()) {
             return None;
         }
         let svd = jacobian.clone().svd(true, true);

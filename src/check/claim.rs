@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use crate::document::{Span, Spanned};
-use crate::expr::{Expr, Node, SymId};
+use crate::expr::{Deadline, Expr, Graph, Node, SymId};
 use crate::latex::{
     ParseError,
     ast::{self, Rel},
@@ -12,6 +12,9 @@ use crate::semantics::{self, Clause, Elaborator, Error, Scope, Side, TypedLink, 
 
 use super::book::{Book, Formula, Unclear, Version};
 use super::premises::Premises;
+
+/// How deep values at the start of the motion may be made of others.
+const MOST_STARTS: usize = 16;
 
 /// A pair of scalars that a link relates.
 #[derive(Clone, Debug)]
@@ -24,6 +27,14 @@ pub struct Pair {
     pub rhs: Expr,
     /// What must vanish (or, for an inequality, have a sign): left minus right.
     pub residual: Expr,
+    /// Whether only the values at the start of the motion are meant.
+    pub start: bool,
+}
+
+impl Pair {
+    fn new(graph: &mut Graph, name: Option<String>, lhs: Expr, rhs: Expr) -> Self {
+        Pair { name, lhs, rhs, residual: graph.sub(lhs, rhs), start: false }
+    }
 }
 
 /// The pairs of one branch of a link.
@@ -73,6 +84,15 @@ pub enum Obstacle {
     Premise(String, String, Span),
 }
 
+/// Which premises a claim keeps.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Related {
+    /// Those that have to do with what is claimed.
+    Only,
+    /// All.
+    All,
+}
+
 /// What a claim is made from.
 #[derive(Clone, Copy)]
 pub struct Source<'b> {
@@ -84,12 +104,19 @@ pub struct Source<'b> {
     pub version: Version,
     /// Which of its links (from 0), where it has premises of its own.
     pub link: Option<usize>,
+    /// When the time for it is used up.
+    pub deadline: Deadline,
 }
 
 impl<'b> Source<'b> {
     /// For an equation as a whole.
     pub fn new(book: &'b Book, index: usize, version: Version) -> Self {
-        Source { book, index, version, link: None }
+        Source { book, index, version, link: None, deadline: Deadline::NEVER }
+    }
+
+    /// With a limit of the time for it.
+    pub fn until(self, deadline: Deadline) -> Self {
+        Source { deadline, ..self }
     }
 
     /// For one of its links.
@@ -103,16 +130,35 @@ impl<'b> Source<'b> {
 
     /// Builds the claim of a clause of the equation. `known` are clauses of the same equation that are definitions.
     pub fn claim(&self, clause: &Clause, scope: &Scope, known: &[Clause]) -> Result<Claim, Obstacle> {
-        let mut world = World::new();
+        self.claim_of(std::slice::from_ref(clause), scope, known, Related::Only)
+    }
+
+    /// Builds one claim of several clauses with one relation; a ± may stand in the first alone.
+    pub(super) fn claim_of(
+        &self,
+        clauses: &[Clause],
+        scope: &Scope,
+        known: &[Clause],
+        related: Related,
+    ) -> Result<Claim, Obstacle> {
+        let [clause, more @ ..] = clauses else {
+            return Err(Obstacle::Link(Error::unsupported("nothing is printed here", &(0..0))));
+        };
+        let mut world = World::until(self.deadline);
         // A premise from another section that speaks of the same basis means this one.
         Elaborator::new(&mut world, scope, Vec::new(), true).build_bases();
         let typed = self.branches(&mut world, scope, clause).map_err(Obstacle::Link)?;
         let constant = clause.rhs == Side::Constant;
         let mut branches: Vec<Branch> = typed.iter().map(|link| pairs(&mut world, link, constant)).collect();
+        for clause in more {
+            let link = semantics::understand(&mut world, scope, clause, true).map_err(Obstacle::Link)?;
+            branches[0].extend(pairs(&mut world, &link, clause.rhs == Side::Constant));
+        }
         let mut given = self.given(&mut world)?;
         for clause in known {
             self.add_clause(&mut world, self.scope(), clause, &mut given).map_err(Obstacle::Link)?;
         }
+        given.equal.extend(world.integral_rates());
         let small = self.small(&mut world)?;
         let condition = self.condition(&mut world)?;
         let solve = self.solve(&mut world)?;
@@ -125,10 +171,8 @@ impl<'b> Source<'b> {
         // each other there.
         let printed: Vec<Expr> = branches.iter().flatten().map(|pair| pair.residual).collect();
         let mentioned = world.graph.symbols(&printed);
-        for pair in branches.iter_mut().flatten() {
-            for e in [&mut pair.lhs, &mut pair.rhs, &mut pair.residual] {
-                *e = premises.resolve(&mut world.graph, *e);
-            }
+        resolve(&mut world, &premises, &mut branches, typed.first().map(|link| link.rel));
+        for pair in branches.iter().flatten() {
             targets.extend([pair.residual, pair.lhs, pair.rhs]);
         }
         targets.extend(small.iter().map(|(s, _)| world.graph.sym(*s)).collect::<Vec<_>>());
@@ -137,8 +181,11 @@ impl<'b> Source<'b> {
         let bound: Vec<Expr> = ordered.iter().map(|(_, e)| *e).chain(premises.residuals.iter().copied()).collect();
         let bound = world.graph.symbols(&bound);
         let bound = bound.into_iter().map(|s| world.graph.info(s).base).collect();
-        premises.keep_related(&world.graph, &targets, mentioned);
+        if related == Related::Only {
+            premises.keep_related(&world.graph, &targets, mentioned);
+        }
         premises.close_in_time(&mut world.graph, &targets);
+        world.check(&clause.lhs.span).map_err(Obstacle::Link)?;
         let (lhs_text, rhs_text) = typed.first().map(|l| (l.lhs_text.clone(), l.rhs_text.clone())).unwrap_or_default();
         let rel = clause.rel;
         Ok(Claim { world, rel, branches, premises, solve, small, lhs_text, rhs_text, condition, bound, ordered })
@@ -216,24 +263,20 @@ impl<'b> Source<'b> {
     /// Adds what a clause states, where it is an equation or says what is greater.
     fn add_clause(&self, world: &mut World, scope: &Scope, clause: &Clause, stated: &mut Stated) -> Result<(), Error> {
         let ordered = matches!(clause.rel, Rel::Lt | Rel::Le | Rel::Gt | Rel::Ge);
-        if !ordered && !matches!(clause.rel, Rel::Eq | Rel::Equiv | Rel::Implies) {
+        let equal = matches!(clause.rel, Rel::Eq | Rel::Equiv | Rel::Implies) || semantics::is_geometric(clause.rel);
+        if !ordered && !equal {
             return Ok(());
         }
         let link = semantics::understand(world, scope, clause, true)?;
-        if clause.rhs == Side::Constant {
-            let zero = world.graph.int(0);
-            let t = world.graph.find("t");
-            for instance in &link.instances {
-                for e in instance.lhs.components() {
-                    let rate = world.graph.time_derivative(e, t);
-                    stated.equal.push((rate, zero));
-                }
+        let constant = clause.rhs == Side::Constant;
+        for pair in self::pairs(world, &link, constant) {
+            if ordered {
+                stated.ordered.push((clause.rel, pair.residual));
+                continue;
             }
-        } else if ordered {
-            let pairs = link.pairs().into_iter();
-            stated.ordered.extend(pairs.map(|(_, a, b)| (clause.rel, world.graph.sub(a, b))));
-        } else {
-            stated.equal.extend(link.pairs().into_iter().map(|(_, a, b)| (a, b)));
+            stated.equal.push((pair.lhs, pair.rhs));
+            let rates = in_time(world, pair).into_iter().filter(|pair| !pair.start);
+            stated.equal.extend(rates.map(|pair| (pair.lhs, pair.rhs)));
         }
         Ok(())
     }
@@ -262,11 +305,10 @@ impl<'b> Source<'b> {
         Ok(clauses)
     }
 
-    /// A symbol named in an annotation.
+    /// A symbol named in an annotation; a family's as a tuple.
     pub(super) fn symbol(&self, world: &mut World, text: &Spanned<String>) -> Result<Value, Obstacle> {
         let tree = Formula::new(&text.value).tree.map_err(|e| broken(text, &e))?;
-        let mut elaborator = Elaborator::new(world, self.scope(), Vec::new(), true);
-        elaborator.value(&tree).map(|t| t.value).map_err(|e| unclear(text, &e))
+        semantics::every_value(world, self.scope(), &tree).map_err(|e| unclear(text, &e))
     }
 
     fn solve(&self, world: &mut World) -> Result<Vec<SymId>, Obstacle> {
@@ -389,20 +431,60 @@ pub fn obstacle_text(obstacle: &Obstacle) -> String {
 }
 
 pub(super) fn pairs(world: &mut World, link: &TypedLink, constant: bool) -> Branch {
-    let graph = &mut world.graph;
     if constant {
-        let t = graph.find("t");
-        let zero = graph.int(0);
-        let sides = link.instances.iter().flat_map(|i| i.lhs.components());
+        let zero = world.graph.int(0);
+        let sides: Vec<Expr> = link.instances.iter().flat_map(|i| i.lhs.components()).collect();
         return sides
+            .into_iter()
             .map(|e| {
-                let residual = graph.time_derivative(e, t);
-                Pair { name: None, lhs: residual, rhs: zero, residual }
+                let rate = world.rate(e);
+                Pair::new(&mut world.graph, None, rate, zero)
             })
             .collect();
     }
-    let sides = link.pairs().into_iter();
-    sides.map(|(name, lhs, rhs)| Pair { name, lhs, rhs, residual: graph.sub(lhs, rhs) }).collect()
+    let mut pairs = Branch::new();
+    for (name, lhs, rhs) in link.pairs() {
+        pairs.push(Pair::new(&mut world.graph, name, lhs, rhs));
+    }
+    pairs
+}
+
+/// Puts the premises' definitions into the pairs. An equation in time becomes two.
+fn resolve(world: &mut World, premises: &Premises, branches: &mut [Branch], rel: Option<Rel>) {
+    let each = |pair: &mut Pair, f: &mut dyn FnMut(Expr) -> Expr| {
+        for e in [&mut pair.lhs, &mut pair.rhs, &mut pair.residual] {
+            *e = f(*e);
+        }
+    };
+    for branch in branches {
+        branch.iter_mut().for_each(|pair| each(pair, &mut |e| premises.resolve(&mut world.graph, e)));
+        if !matches!(rel, Some(Rel::Eq | Rel::Equiv | Rel::Implies)) {
+            continue;
+        }
+        *branch = std::mem::take(branch).into_iter().flat_map(|pair| in_time(world, pair)).collect();
+        for pair in branch {
+            each(pair, &mut |e| premises.resolve(&mut world.graph, e));
+            // A value at the start may be one of something with values at the start, but not for ever.
+            for _ in 0..MOST_STARTS {
+                if pair.start && world.remembers(pair.residual) {
+                    each(pair, &mut |e| world.start(e));
+                    each(pair, &mut |e| premises.resolve(&mut world.graph, e));
+                }
+            }
+        }
+    }
+}
+
+/// An equation between integrals along the motion, or differences from its start, as two: what holds for all times is what
+/// holds at the start and has the same rate ever after.
+fn in_time(world: &mut World, pair: Pair) -> Vec<Pair> {
+    if !world.remembers(pair.lhs) && !world.remembers(pair.rhs) {
+        return vec![pair];
+    }
+    let named = |what: &str| Some(pair.name.iter().map(String::as_str).chain([what]).collect::<Vec<_>>().join(", "));
+    let (left, right) = (world.rate(pair.lhs), world.rate(pair.rhs));
+    let rate = Pair::new(&mut world.graph, named("rate"), left, right);
+    vec![rate, Pair { name: named("at the start"), start: true, ..pair }]
 }
 
 /// A tree in which every occurrence of a variable is replaced by something in brackets.

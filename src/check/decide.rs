@@ -7,13 +7,14 @@
 
 use std::collections::BTreeMap;
 
-use crate::expr::{SymId, Workspace};
+use crate::expr::{SymId, Tape, Workspace};
 use crate::latex::ast::Rel;
 use crate::number::{Df64, Number, Real};
 
 use super::claim::Claim;
 use super::exact;
 use super::judge::Options;
+use super::lost::lost_bits;
 use super::random::Random;
 use super::sampling::{PairValue, Sampler, no_state_text};
 use super::shrink::shrink;
@@ -44,7 +45,9 @@ fn finding<N: Real>(value: &PairValue<N>, scale_log2: f64) -> Finding {
         return Finding::Differ((size - scale_log2).exp2());
     }
     let bits = scale_log2 - value.error_log2().max(size);
-    if scale_log2 == f64::NEG_INFINITY || bits >= LEAST_BITS { Finding::Agree(bits.min(1e6)) } else { Finding::Open }
+    // Where nothing is left of the terms they must be zero, not too small for the numbers.
+    let zero = scale_log2 == f64::NEG_INFINITY && value.error_log2() == f64::NEG_INFINITY;
+    if zero || bits >= LEAST_BITS { Finding::Agree(bits.min(1e6)) } else { Finding::Open }
 }
 
 /// The findings of all pairs of a branch; vectors are measured by their largest component.
@@ -97,7 +100,11 @@ fn by_values(
         Ok(states) => states,
         Err(e) => return (LinkJudgement { reason: Some(no_state_text(&e)), ..judgement }, unknowns),
     };
-    (refined(judgement, &sampler, &states, options), unknowns)
+    let mut judgement = refined(judgement, &sampler, &states, options);
+    if options.evidence {
+        judgement.lost_bits = lost_bits(&sampler, &states);
+    }
+    (judgement, unknowns)
 }
 
 /// Decides in double-double, and in higher precision where that is not enough.
@@ -106,18 +113,16 @@ fn refined(judgement: LinkJudgement, sampler: &Sampler, states: &[State], option
     {
         use crate::number::Mpfr;
         if let Some(bits) = options.precision {
-            return decide::<Mpfr>(judgement, sampler, states, &bits);
+            return decide::<Mpfr>(judgement, sampler, states, &bits, options);
         }
-        let first = decide::<Df64>(judgement.clone(), sampler, states, &());
+        let first = decide::<Df64>(judgement.clone(), sampler, states, &(), options);
         if first.verdict == Verdict::Undecided {
-            return decide::<Mpfr>(judgement, sampler, states, &256);
+            return decide::<Mpfr>(judgement, sampler, states, &256, options);
         }
         first
     }
     #[cfg(not(feature = "rug"))]
-    let _ = options;
-    #[cfg(not(feature = "rug"))]
-    decide::<Df64>(judgement, sampler, states, &())
+    decide::<Df64>(judgement, sampler, states, &(), options)
 }
 
 fn decide<N: Real>(
@@ -125,10 +130,15 @@ fn decide<N: Real>(
     sampler: &Sampler,
     states: &[State],
     cx: &N::Context,
+    options: &Options,
 ) -> LinkJudgement {
     let mut tally = Tally { branch_hit: vec![false; sampler.claim.branches.len()], ..Tally::default() };
     let mut work = Workspace::default();
+    let deadline = sampler.deadline();
     for (k, state) in states.iter().enumerate() {
+        if deadline.has_passed() {
+            break;
+        }
         match sampler.evaluate::<N>(state, cx, &mut work) {
             Some(branches) => tally.add(k, &branches),
             None => tally.open += 1,
@@ -144,7 +154,10 @@ fn decide<N: Real>(
         if let Some(branches) = sampler.evaluate::<N>(&small.state, cx, &mut work) {
             let (value, pair) = (&branches[0][pair], &sampler.claim.branches[0][pair]);
             judgement.counterexample = Some(sampler.counterexample(&small.state, cx, pair, value, &small.idle));
+            proof(&mut judgement, sampler, &small.state, None, &small.idle, options);
         }
+    } else if deadline.has_passed() {
+        judgement.reason = Some(deadline.used_up("evaluating both sides"));
     } else if let Some(branch) = tally.branch_hit.iter().position(|hit| !hit).filter(|_| tally.open == 0) {
         let sign = if branch == 0 { "upper" } else { "lower" };
         judgement.verdict = Verdict::Fails;
@@ -163,6 +176,28 @@ fn decide<N: Real>(
         }
     }
     judgement
+}
+
+/// A proof that a claim fails at the state of its counterexample. `condition` is what an inequality is to be equivalent to.
+fn proof(
+    judgement: &mut LinkJudgement,
+    sampler: &Sampler,
+    state: &State,
+    condition: Option<(Rel, &Tape)>,
+    idle: &[SymId],
+    options: &Options,
+) {
+    #[cfg(feature = "rug")]
+    if options.evidence {
+        use super::certify::{Claimed, certify};
+        let claimed = match sampler.claim.rel {
+            rel @ (Rel::Lt | Rel::Le | Rel::Gt | Rel::Ge) => Claimed::Ordered(rel, condition),
+            _ => Claimed::Equal,
+        };
+        certify(judgement, sampler, state, &claimed, idle);
+    }
+    #[cfg(not(feature = "rug"))]
+    let _ = (judgement, sampler, state, condition, idle, options);
 }
 
 impl Tally {
@@ -208,7 +243,7 @@ pub fn inequality(mut judgement: LinkJudgement, mut claim: Claim, name: &str, op
     let mut random = Random::new(options.seed, name);
     let condition = claim.condition.map(|(rel, a, b)| (rel, claim.world.graph.sub(a, b)));
     let extra: Vec<_> = condition.iter().map(|(_, e)| *e).collect();
-    let tape = crate::expr::Tape::compile(&claim.world.graph, &extra);
+    let tape = Tape::compile(&claim.world.graph, &extra);
     let sampled = Sampler::new(&mut claim, &mut random, &extra).and_then(|sampler| {
         // An inequality wants more states: it is its border that matters.
         let states = sampler.states(4 * options.states, &mut random, &BTreeMap::new())?;
@@ -221,7 +256,12 @@ pub fn inequality(mut judgement: LinkJudgement, mut claim: Claim, name: &str, op
     let mut work = Workspace::default();
     let mut condition_work = Workspace::default();
     let mut seen = [0usize; 2];
+    let mut example = None;
+    let deadline = sampler.deadline();
     for state in &states {
+        if deadline.has_passed() {
+            break;
+        }
         let Some(branches) = sampler.evaluate::<Df64>(state, &(), &mut work) else { continue };
         let Some(values) = sampler.system.refine::<Df64>(state, &()) else { continue };
         let inputs: Vec<_> = tape.inputs().iter().map(|s| values[s.index()].clone()).collect();
@@ -242,6 +282,7 @@ pub fn inequality(mut judgement: LinkJudgement, mut claim: Claim, name: &str, op
                 if judgement.counterexample.is_none() {
                     let pair = &sampler.claim.branches[0][pair];
                     judgement.counterexample = Some(sampler.counterexample(state, &(), pair, value, &[]));
+                    example = Some(state);
                 }
             }
         }
@@ -249,12 +290,20 @@ pub fn inequality(mut judgement: LinkJudgement, mut claim: Claim, name: &str, op
     judgement.strength = Some(Strength::Numeric);
     judgement.inexact = Some("a prime field has no order".into());
     judgement.verdict = if judgement.failing_states > 0 { Verdict::Fails } else { Verdict::Holds };
-    if judgement.states == 0 || condition.is_some() && seen.contains(&0) {
+    if judgement.failing_states == 0 && deadline.has_passed() {
+        judgement.verdict = Verdict::Undecided;
+        judgement.strength = None;
+        judgement.reason = Some(deadline.used_up("evaluating both sides"));
+    } else if judgement.states == 0 || condition.is_some() && seen.contains(&0) {
         judgement.verdict = Verdict::Undecided;
         judgement.strength = None;
         judgement.reason = Some("the states lie all on one side of the condition: widen the ranges".into());
     } else if judgement.failing_states > 0 && condition.is_some() {
         judgement.reason = Some("the inequality and the condition are not equivalent".into());
+    }
+    if let (Verdict::Fails, Some(state)) = (judgement.verdict, example) {
+        let condition = condition.as_ref().map(|(rel, _)| (*rel, &tape));
+        proof(&mut judgement, &sampler, state, condition, &[], options);
     }
     judgement
 }
@@ -272,7 +321,7 @@ fn sign<N: Real>(value: &crate::number::Tracked<N>) -> Option<i32> {
     }
 }
 
-fn satisfies(rel: Rel, sign: i32) -> bool {
+pub(super) fn satisfies(rel: Rel, sign: i32) -> bool {
     match rel {
         Rel::Lt => sign < 0,
         Rel::Le => sign <= 0,

@@ -10,6 +10,8 @@ use crate::number::F61;
 use super::claim::Claim;
 use super::elimination::{Elimination, Unsolved};
 use super::random::Random;
+use super::sampling::no_state_text;
+use super::system::NoState;
 
 /// log₂ of the chance of a false "holds" that is aimed at.
 const AIM: f64 = -100.0;
@@ -62,6 +64,9 @@ pub enum Inexact {
     /// No point where everything is defined.
     #[error("no point of the prime field was found at which everything is defined")]
     Undefined,
+    /// The graph was cut short.
+    #[error("{0}")]
+    CutShort(String),
     /// The degree is too large.
     #[error("the degree is too large for a useful bound")]
     Degree,
@@ -91,10 +96,15 @@ fn on_premises(
     random: &mut Random,
 ) -> Result<Exact, Inexact> {
     let elimination = Elimination::new(&mut claim.world.graph, premises, unknowns, &mut || random.next());
+    let deadline = claim.world.graph.deadline();
+    NoState::check(&mut claim.world, "deriving the premises for a prime field").map_err(cut_short)?;
     let trial = Trial::new(claim, &elimination, targets, unknowns)?;
     let mut worst = 1;
     let mut done = 0;
     loop {
+        if deadline.has_passed() {
+            return Err(Inexact::CutShort(deadline.used_up("evaluating in a prime field")));
+        }
         worst = worst.max(trial.run(random)?);
         done += 1;
         let log2_error = f64::from(done) * chance_log2(worst);
@@ -105,6 +115,10 @@ fn on_premises(
             return Err(Inexact::Degree);
         }
     }
+}
+
+fn cut_short(reason: NoState) -> Inexact {
+    Inexact::CutShort(no_state_text(&reason))
 }
 
 /// What must vanish. Of the two branches of ± one must hold: the product of the residuals vanishes. That both do occur
@@ -162,7 +176,11 @@ impl<'c> Trial<'c> {
     /// One trial: draws points until everything is defined with all choices of signs there. The degree of the
     /// residuals, if they all vanish.
     fn run(&self, random: &mut Random) -> Result<u64, Inexact> {
+        let deadline = self.claim.world.graph.deadline();
         for _ in 0..DRAWS {
+            if deadline.has_passed() {
+                return Err(Inexact::CutShort(deadline.used_up("evaluating in a prime field")));
+            }
             let point = self.field.draw(&mut || random.next());
             if let Some(degree) = self.all_signs(&point)? {
                 return Ok(degree);

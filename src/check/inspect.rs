@@ -2,7 +2,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::expr::Workspace;
+use crate::expr::{Deadline, Workspace};
 use crate::number::Df64;
 use crate::semantics::Clause;
 
@@ -45,7 +45,7 @@ pub struct InspectedState {
 /// Lays the links of an equation open.
 pub fn inspect(book: &Book, index: usize, version: Version, options: &Options) -> Vec<Inspection> {
     let Ok(statement) = book.statement(index, version) else { return Vec::new() };
-    let source = Source::new(book, index, version);
+    let source = Source::new(book, index, version).until(Deadline::after(options.budget));
     let scope = &book.entries[index].scope;
     if book.entries[index].list(|a| &a.solves).is_empty() {
         let clauses = statement.clauses.iter().enumerate();

@@ -1,11 +1,12 @@
 //! The judgement on an equation: each link of its chain is claimed, evaluated and decided; the worst decides.
 
 use std::collections::HashSet;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use crate::document::Problem;
+use crate::expr::Deadline;
 use crate::latex::ast::{Kind, Node, Rel};
-use crate::semantics::{Clause, ErrorKind, Scope, Side, Statement};
+use crate::semantics::{self, Clause, ErrorKind, Scope, Side, Statement};
 
 use super::book::{Book, Entry, Formula, Unclear, Version};
 use super::claim::{Claim, Obstacle, Source, obstacle_text, unclear_text};
@@ -14,7 +15,7 @@ use super::general;
 use super::law;
 use super::order;
 use super::trouble;
-use super::verdict::{Correction, DimensionStatus, Judgement, LinkJudgement, Strength, Verdict};
+use super::verdict::{Correction, DimensionStatus, Judgement, LinkJudgement, LostBits, Strength, Verdict};
 
 /// What the checker is asked for.
 #[derive(Clone, Debug)]
@@ -25,11 +26,17 @@ pub struct Options {
     pub states: usize,
     /// The precision in bits to decide in, where one is asked for (feature `rug`); otherwise double-double.
     pub precision: Option<u32>,
+    /// Whether a judgement is to say more than its verdict rests on: certificates of counterexamples (feature `rug`), the
+    /// bits that doubles lose.
+    pub evidence: bool,
+    /// The time that each stage may take for an equation: judging it, judging its correction, trying its mutants,
+    /// searching what was meant. `None` for no limit.
+    pub budget: Option<Duration>,
 }
 
 impl Default for Options {
     fn default() -> Self {
-        Options { seed: 1, states: 64, precision: None }
+        Options { seed: 1, states: 64, precision: None, evidence: true, budget: None }
     }
 }
 
@@ -90,6 +97,8 @@ pub fn blank(book: &Book, index: usize) -> Judgement {
         as_expected: false,
         sensitivity: None,
         suggestions: Vec::new(),
+        unfinished: None,
+        lost_bits: None,
         micros: 0,
         problem: None,
     }
@@ -140,7 +149,7 @@ pub(super) fn judge_version(book: &Book, index: usize, version: Version, options
     let entry = &book.entries[index];
     if let Some(circle) = book.circle(index) {
         // The document's own problems say where.
-        let reason = format!("the premises go in a circle: {}", circle.join(" → "));
+        let reason = format!("the premises go in a circle: {circle}");
         return Outcome::without_links(Verdict::Undecided, reason, None);
     }
     let statement = match book.statement(index, version) {
@@ -155,7 +164,18 @@ pub(super) fn judge_version(book: &Book, index: usize, version: Version, options
             return Outcome::without_links(verdict, reason, Some(trouble::unclear(entry, version, &unclear)));
         }
     };
-    judge_statement(&Source::new(book, index, version), &statement, options)
+    let source = Source::new(book, index, version).until(Deadline::after(options.budget));
+    judge_statement(&source, &statement, options)
+}
+
+/// Judges the links of another formula in the place of an equation; none where it cannot be taken apart.
+pub fn judge_tree(book: &Book, index: usize, tree: &Node, options: &Options) -> Vec<LinkJudgement> {
+    let options = Options { evidence: false, ..options.clone() };
+    let source = Source::new(book, index, Version::Printed).until(Deadline::after(options.budget));
+    match book.statement_of(index, tree) {
+        Ok(statement) => judge_statement(&source, &statement, &options).links,
+        Err(_) => Vec::new(),
+    }
 }
 
 /// Judges what an equation states, in the words of any version of it.
@@ -180,8 +200,13 @@ pub(super) fn judge_statement(source: &Source, statement: &Statement, options: &
             known.push(clause.clone());
         } else {
             let link = judge_link(source, clause, &entry.scope, &known, options);
-            let taken = kind(book, index) == "law" && link.verdict != Verdict::Holds && clause.rel == Rel::Eq;
-            links.push(if taken { taken_as_law(link, source, clause, options) } else { link });
+            let equality = matches!(clause.rel, Rel::Eq | Rel::Equiv) || semantics::is_geometric(clause.rel);
+            if equality && kind(book, index) == "law" && link.verdict != Verdict::Holds {
+                links.push(taken_as_law(link, source, clause, &known, options));
+                known.push(clause.clone());
+            } else {
+                links.push(link);
+            }
         }
     }
     Outcome::of(links)
@@ -203,9 +228,14 @@ fn nothing_to_evaluate(entry: &Entry, version: Version) -> Outcome {
 }
 
 /// A law that does not follow from its premises is taken as given, if any state satisfies it together with them.
-fn taken_as_law(link: LinkJudgement, source: &Source, clause: &Clause, options: &Options) -> LinkJudgement {
-    let scope = &source.book.entries[source.index].scope;
-    match law::satisfying_states(source, clause, scope, options) {
+fn taken_as_law(
+    link: LinkJudgement,
+    source: &Source,
+    clause: &Clause,
+    known: &[Clause],
+    options: &Options,
+) -> LinkJudgement {
+    match law::satisfying_states(source, clause, known, options) {
         Ok(0) => LinkJudgement { reason: Some("a law that no state satisfies".into()), ..link },
         Ok(states) => {
             let reason = Some("a law: taken as given, and there are states that satisfy it".into());
@@ -310,6 +340,7 @@ fn unjudged(clause: &Clause) -> LinkJudgement {
         problem: None,
         exact: None,
         inexact: None,
+        lost_bits: None,
     }
 }
 
@@ -345,6 +376,7 @@ fn link_verdict(source: &Source, clause: &Clause, scope: &Scope, known: &[Clause
             Some(Ok(clause)) => clause,
         },
         Rel::Eq | Rel::Equiv | Rel::Implies | Rel::Lt | Rel::Le | Rel::Gt | Rel::Ge => clause.clone(),
+        rel if semantics::is_geometric(rel) => clause.clone(),
         _ => {
             judgement.reason = Some("relations of this kind are not evaluated yet".into());
             return judgement;
@@ -392,11 +424,16 @@ fn obstructed(mut judgement: LinkJudgement, source: &Source, clause: &Clause, ob
 }
 
 /// A message with the piece of LaTeX it is about.
+/// The most of a formula that is quoted in a reason, in bytes.
+const LONGEST_PIECE: usize = 120;
+
 fn place(latex: &str, message: &str, span: &std::ops::Range<usize>, help: Option<&str>) -> String {
     let piece = latex.get(span.clone()).unwrap_or_default().trim();
     let mut text = message.to_owned();
     if !piece.is_empty() && !message.contains(piece) {
-        text.push_str(&format!(", at `{piece}`"));
+        let end = piece.floor_char_boundary(LONGEST_PIECE);
+        let more = if end < piece.len() { " …" } else { "" };
+        text.push_str(&format!(", at `{}{more}`", &piece[..end]));
     }
     if let Some(help) = help {
         text.push_str(&format!(" ({help})"));
@@ -438,6 +475,12 @@ impl Judgement {
         let definition = self.links.iter().all(|l| l.verdict == Verdict::Definition) && !self.links.is_empty();
         if definition && self.kind != "law" {
             self.kind = "definition".into();
+        }
+        let lost: Vec<LostBits> = self.links.iter().filter_map(|l| l.lost_bits).collect();
+        if !lost.is_empty() {
+            let mean = lost.iter().map(|l| l.mean).sum::<f64>() / lost.len() as f64;
+            let worst = lost.iter().map(|l| l.worst).fold(0.0, f64::max);
+            self.lost_bits = Some(LostBits { mean: (10.0 * mean).round() / 10.0, worst });
         }
         if self.reason.is_none() {
             self.reason = self.links.iter().find(|l| l.verdict == self.verdict).and_then(|l| l.reason.clone());

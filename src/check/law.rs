@@ -3,7 +3,7 @@
 
 use std::collections::BTreeMap;
 
-use crate::semantics::{Clause, Scope};
+use crate::semantics::Clause;
 
 use super::claim::{Obstacle, Source};
 use super::judge::Options;
@@ -13,14 +13,16 @@ use super::sampling::Sampler;
 /// The states that must satisfy a law.
 const STATES: usize = 4;
 
-/// The number of states that were found to satisfy a law together with its premises.
+/// The number of states that were found to satisfy a law together with its premises and what is `known` before it.
 pub fn satisfying_states(
     source: &Source,
     clause: &Clause,
-    scope: &Scope,
+    known: &[Clause],
     options: &Options,
 ) -> Result<usize, Obstacle> {
-    let mut claim = source.claim(clause, scope, std::slice::from_ref(clause))?;
+    let scope = &source.book.entries[source.index].scope;
+    let known: Vec<Clause> = known.iter().chain([clause]).cloned().collect();
+    let mut claim = source.claim(clause, scope, &known)?;
     let mut random = Random::new(options.seed, &clause.latex());
     let sampler = Sampler::new(&mut claim, &mut random, &[]);
     let states = sampler.and_then(|sampler| sampler.states(STATES, &mut random, &BTreeMap::new()));

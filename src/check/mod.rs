@@ -1,7 +1,10 @@
 //! Judging: sampled states, premises, verdicts.
 
 mod book;
+#[cfg(feature = "rug")]
+mod certify;
 mod choice;
+mod circle;
 mod claim;
 mod decide;
 pub mod dimension;
@@ -11,12 +14,14 @@ mod general;
 pub mod inspect;
 mod judge;
 mod law;
+mod lost;
 mod newton;
 mod order;
 mod premises;
 mod random;
 mod sameness;
 mod sampling;
+mod screen;
 mod shrink;
 mod system;
 mod trial;
@@ -24,5 +29,7 @@ mod trouble;
 pub mod verdict;
 
 pub use book::{Book, Entry, Formula, Unclear, Version};
-pub use judge::{Options, blank, judge};
+pub use judge::{Options, blank, judge, judge_tree};
+pub use random::Random;
+pub use screen::{STATES, Screen, Sight};
 pub use trial::{Outcome, Trial};

@@ -39,16 +39,21 @@ pub fn judge(
         Ok(sampler) => sampler,
         Err(e) => return LinkJudgement { reason: Some(no_state_text(&e)), ..judgement },
     };
+    let deadline = sampler.deadline();
     let mut courses = Vec::new();
     let mut example = None;
     for _ in 0..4 * STATES {
-        if courses.len() == STATES {
+        if courses.len() == STATES || deadline.has_passed() {
             break;
         }
         if let Some((course, last)) = course(&sampler, small, reciprocal, &mut random) {
             courses.push(course);
             example.get_or_insert(last);
         }
+    }
+    if deadline.has_passed() {
+        judgement.reason = Some(deadline.used_up("following the small parameter"));
+        return judgement;
     }
     if courses.is_empty() {
         judgement.reason = Some("the premises could not be solved along the small parameter".into());

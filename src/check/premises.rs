@@ -25,6 +25,9 @@ impl Premises {
         let mut premises = Premises::default();
         let mut rest = Vec::new();
         for &(a, b) in pairs {
+            if graph.cut_short().is_some() {
+                return premises;
+            }
             if a == b {
                 continue;
             }
@@ -124,7 +127,7 @@ impl Premises {
         let mut queue = self.residuals.clone();
         let mut derivatives = Vec::new();
         while let Some(residual) = queue.pop() {
-            if derivatives.len() > MOST_RESIDUALS {
+            if derivatives.len() > MOST_RESIDUALS || graph.cut_short().is_some() {
                 break;
             }
             let derivative = graph.time_derivative(residual, t);
@@ -157,7 +160,7 @@ impl Premises {
                     reached.extend(own);
                 }
             }
-            if !grown {
+            if !grown || graph.deadline().has_passed() {
                 break;
             }
         }

@@ -77,12 +77,12 @@ fn is_null(node: &Node) -> bool {
 /// Whether two clauses in the place of an equation say the same.
 pub fn same(source: &Source, a: &Clause, b: &Clause, random: &Random) -> bool {
     let scope = &source.book.entries[source.index].scope;
-    let mut world = World::new();
+    let mut world = World::until(source.deadline);
     Elaborator::new(&mut world, scope, Vec::new(), true).build_bases();
     let (Some(left), Some(right)) = (residuals(source, &mut world, a), residuals(source, &mut world, b)) else {
         return false;
     };
-    if a.rel != b.rel || left.len() != right.len() {
+    if a.rel != b.rel || left.len() != right.len() || world.graph.cut_short().is_some() {
         return false;
     }
     let ordered = matches!(a.rel, Rel::Lt | Rel::Le | Rel::Gt | Rel::Ge);
@@ -125,6 +125,9 @@ fn compare(world: &mut World, left: &[Expr], right: &[Expr], ordered: bool, iden
 
 fn sampled(world: &mut World, left: &[Expr], right: &[Expr], mut random: Random) -> Option<Sample> {
     let outputs: Vec<Expr> = left.iter().chain(right).flat_map(|e| [*e, world.graph.magnitude(*e)]).collect();
+    if world.graph.cut_short().is_some() {
+        return None;
+    }
     let tape = Tape::compile(&world.graph, &outputs);
     let sources: Vec<_> = tape.inputs().iter().map(|s| system::source(world, *s)).collect();
     let mut work = Workspace::default();

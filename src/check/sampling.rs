@@ -3,7 +3,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::expr::{Expr, Node, SymId, Tape, Workspace};
+use crate::expr::{Deadline, Expr, Node, SymId, Tape, Workspace};
 use crate::latex::ast::Rel;
 use crate::number::{Number, Real, Tracked};
 
@@ -47,13 +47,13 @@ pub struct Sampler<'c> {
     /// Its premises compiled.
     pub system: System,
     /// For each pair of each branch: residual, lhs, rhs, sum of magnitudes.
-    tape: Tape,
+    pub(super) tape: Tape,
     /// The pairs' numbers by branch.
     branches: Vec<usize>,
     /// Starts for unknowns that one side gives: the unknown's place and the tape of the other side.
     hints: Vec<(usize, Tape)>,
-    /// What must be greater or less than zero.
-    ordered: Tape,
+    /// What must be positive.
+    pub(super) ordered: Tape,
 }
 
 impl<'c> Sampler<'c> {
@@ -72,11 +72,17 @@ impl<'c> Sampler<'c> {
         let wish = Wish { solve: &claim.solve, free: &kept };
         let residuals = claim.premises.residuals.clone();
         let system = System::new(&mut claim.world, &residuals, &targets, &wish, random)?;
+        NoState::check(&mut claim.world, "writing both sides out")?;
         let hints = hints(claim, &system);
         let tape = Tape::compile(&claim.world.graph, &outputs);
         let branches = claim.branches.iter().map(Vec::len).collect();
         let ordered = Tape::compile(&claim.world.graph, &ordered);
         Ok(Sampler { claim, system, tape, branches, hints, ordered })
+    }
+
+    /// When the time is used up.
+    pub fn deadline(&self) -> Deadline {
+        self.claim.world.graph.deadline()
     }
 
     /// Draws states until enough satisfy the premises; the last eighth near the ends of the ranges.
@@ -88,9 +94,13 @@ impl<'c> Sampler<'c> {
     ) -> Result<Vec<State>, NoState> {
         let mut states = Vec::with_capacity(count);
         let mut last = NoState::Diverges;
+        let deadline = self.deadline();
         for k in 0..count {
             let hard = k >= count - count / 8 && count >= 8;
             for _ in 0..TRIES {
+                if deadline.has_passed() {
+                    return Err(NoState::CutShort(deadline.used_up("solving the premises")));
+                }
                 let (mut state, start) = self.system.draw(random, hard, fixed);
                 match self.system.solve(&mut state, &start) {
                     Ok(()) if self.is_defined(&state) && self.is_allowed(&state) => {
@@ -185,6 +195,8 @@ impl<'c> Sampler<'c> {
             lhs: shown(&value.lhs, 12),
             rhs: shown(&value.rhs, 12),
             component: pair.name.clone(),
+            certificate: None,
+            uncertified: None,
         }
     }
 }
@@ -232,6 +244,7 @@ pub fn no_state_text(reason: &NoState) -> String {
         NoState::Unsolvable => "no state was found at which all premises hold: they contradict each other, or have no solution in the ranges of the symbols",
         NoState::Diverges => "no state was found at which the premises hold and both sides are numbers; check the premises, and the ranges of the symbols",
         NoState::Contradiction => "the premises contradict each other at the sampled states",
+        NoState::CutShort(why) => why,
     }
     .to_owned()
 }

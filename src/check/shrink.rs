@@ -28,7 +28,8 @@ pub fn shrink(sampler: &Sampler, state: &State, pair: usize) -> Small {
     let mut best = state.clone();
     let Some(first) = shrinker.sides(&best) else { return Small { state: best, idle: Vec::new() } };
     let wanted = first.difference.min(VISIBLE);
-    for k in 0..best.free.len() {
+    let deadline = sampler.deadline();
+    for k in (0..best.free.len()).take_while(|_| !deadline.has_passed()) {
         for value in shrinker.candidates(k, best.free[k]) {
             if let Some((trial, sides)) = shrinker.with(&best, k, value)
                 && sides.difference >= wanted
@@ -38,7 +39,8 @@ pub fn shrink(sampler: &Sampler, state: &State, pair: usize) -> Small {
             }
         }
     }
-    let idle = (0..best.free.len()).filter(|k| shrinker.is_idle(&best, *k)).collect::<Vec<_>>();
+    let idle =
+        (0..best.free.len()).filter(|k| !deadline.has_passed() && shrinker.is_idle(&best, *k)).collect::<Vec<_>>();
     Small { state: best, idle: idle.into_iter().map(|k| sampler.system.free[k].symbol).collect() }
 }
 

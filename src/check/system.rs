@@ -5,7 +5,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use nalgebra::{DMatrix, DVector, Dyn, LU};
 
-use crate::expr::{Expr, SymId, Tape, Workspace};
+use crate::expr::{Cut, Expr, MOST_NODES, SymId, Tape, Workspace};
 use crate::number::{Number, Real, Tracked};
 use crate::semantics::World;
 
@@ -16,6 +16,9 @@ use super::random::{Decimal, Random, draw};
 /// The range of a symbol for which none is declared.
 const DEFAULT_RANGE: [f64; 2] = [0.3, 2.0];
 
+/// The stage before states are drawn, in words.
+pub const DERIVING: &str = "deriving the premises by the symbols to solve for";
+
 /// Premises with the choice of free and solved symbols, compiled.
 pub struct System {
     /// The symbols that are drawn at random.
@@ -23,12 +26,13 @@ pub struct System {
     /// The symbols that are solved for.
     pub unknowns: Vec<Source>,
     /// The independent residuals.
-    values: Tape,
+    pub(super) values: Tape,
     /// Their Jacobian by the unknowns, row by row.
-    jacobian: Tape,
+    pub(super) jacobian: Tape,
     /// The residuals that depend on the others, each with the sum of the magnitudes of its terms.
-    rest: Tape,
-    symbols: usize,
+    pub(super) rest: Tape,
+    /// The number of symbols, those of the premises and of what is evaluated among them.
+    pub(super) symbols: usize,
 }
 
 /// Where a symbol's values come from.
@@ -70,6 +74,21 @@ pub enum NoState {
     Diverges,
     /// The premises contradict each other at the sampled states.
     Contradiction,
+    /// The search was cut short: the claim is too large, or the time is used up.
+    CutShort(String),
+}
+
+impl NoState {
+    /// Whether a claim's graph was cut short, or its time is used up.
+    pub fn check(world: &mut World, stage: &str) -> Result<(), NoState> {
+        match world.graph.cut_short() {
+            None => Ok(()),
+            Some(Cut::Time) => Err(NoState::CutShort(world.graph.deadline().used_up(stage))),
+            Some(Cut::Size) => Err(NoState::CutShort(format!(
+                "{stage} takes more than {MOST_NODES} operations: let the sums have fewer terms, and state fewer premises"
+            ))),
+        }
+    }
 }
 
 impl System {
@@ -93,6 +112,7 @@ impl System {
         let jacobian: Vec<Expr> = jacobian.into_iter().flatten().collect();
         let rest: Vec<Expr> = others.iter().flat_map(|r| [*r, world.graph.magnitude(*r)]).collect();
         let all: Vec<Expr> = residuals.iter().chain(targets).copied().collect();
+        NoState::check(world, DERIVING)?;
         let free = world.graph.symbols(&all).into_iter().filter(|s| !solved.contains(s));
         Ok(System {
             free: free.map(|s| source(world, s)).collect(),

@@ -7,7 +7,7 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::expr::{SymId, Tape, Workspace};
+use crate::expr::{Deadline, SymId, Tape, Workspace};
 use crate::latex::ast::{Node, Rel};
 use crate::number::{Df64, Number, Tracked};
 use crate::semantics::{self, Clause, ErrorKind, Side, Statement, World};
@@ -85,7 +85,7 @@ impl<'b> Trial<'b> {
         links: &[LinkJudgement],
         options: &Options,
     ) -> Option<Self> {
-        let source = Source::new(book, index, version);
+        let source = Source::new(book, index, version).until(Deadline::after(options.budget));
         let statement = book.statement(index, version).ok()?;
         let entry = &book.entries[index];
         let solution = !entry.list(|a| &a.solves).is_empty();
@@ -100,7 +100,14 @@ impl<'b> Trial<'b> {
             }
             prepared.push(Link { verdict, bench });
         }
-        Some(Trial { source, options: options.clone(), statement, links: prepared, solution })
+        // Whether another formula fails is asked thousands of times, and needs no proof.
+        let options = Options { evidence: false, ..options.clone() };
+        Some(Trial { source, options, statement, links: prepared, solution })
+    }
+
+    /// When the time for trying formulas is used up.
+    pub fn deadline(&self) -> Deadline {
+        self.source.deadline
     }
 
     /// Judges a formula in the place of the original.
@@ -133,6 +140,33 @@ impl<'b> Trial<'b> {
             .unwrap_or(Outcome::Holds)
     }
 
+    /// What becomes of the links of these numbers in a formula with as many links as the original, whatever the others
+    /// do: the worst of them.
+    pub fn outcome_at(&mut self, tree: &Node, links: &[usize]) -> Outcome {
+        let Ok(statement) = self.source.book.statement_of(self.source.index, tree) else { return Outcome::Unclear };
+        if self.solution || statement.clauses.len() != self.links.len() {
+            return Outcome::Unclear;
+        }
+        let mut confirm = Vec::new();
+        for k in links.iter().copied() {
+            if statement.clauses[k] == self.statement.clauses[k] {
+                if self.links[k].verdict > Verdict::Asymptotic {
+                    return Outcome::Fails;
+                }
+                continue;
+            }
+            match self.quick(k, &statement.clauses[k]) {
+                Quick::Agrees | Quick::Elsewhere => confirm.push(k),
+                Quick::Differs => return Outcome::Fails,
+                Quick::Error(_) => return Outcome::Unclear,
+            }
+        }
+        let outcomes: Vec<Outcome> = confirm.into_iter().map(|k| self.link_in_full(&statement, k)).collect();
+        let bad = outcomes.iter().find(|o| !matches!(o, Outcome::Holds | Outcome::Definition));
+        let definition = outcomes.iter().find(|o| **o == Outcome::Definition);
+        *bad.or(definition).unwrap_or(&Outcome::Holds)
+    }
+
     /// Whether a formula that holds says the same as the original, whatever the premises are: see [`sameness`].
     pub fn is_equivalent(&self, tree: &Node) -> bool {
         let Ok(statement) = self.source.book.statement_of(self.source.index, tree) else { return false };
@@ -140,7 +174,19 @@ impl<'b> Trial<'b> {
         if self.solution && !self.source.book.entries[self.source.index].list(|a| &a.general).is_empty() {
             return true;
         }
-        let (own, other) = (&self.statement.clauses, &statement.clauses);
+        self.same_clauses(&self.statement.clauses, &statement.clauses)
+    }
+
+    /// Whether two formulas in the place of the original say the same as each other.
+    pub fn say_the_same(&self, a: &Node, b: &Node) -> bool {
+        let clauses = |tree| self.source.book.statement_of(self.source.index, tree).map(|s| s.clauses);
+        match (clauses(a), clauses(b)) {
+            (Ok(a), Ok(b)) => self.same_clauses(&a, &b),
+            _ => false,
+        }
+    }
+
+    fn same_clauses(&self, own: &[Clause], other: &[Clause]) -> bool {
         self.all_same(own, other) || self.all_same(&sameness::split(own), &sameness::split(other))
     }
 
@@ -270,7 +316,7 @@ fn outcome((verdict, strength): (Verdict, Option<Strength>)) -> Outcome {
 /// Whether a clause makes sense by itself.
 fn understood(source: &Source, clause: &Clause) -> Result<(), ErrorKind> {
     let scope = &source.book.entries[source.index].scope;
-    semantics::understand(&mut World::new(), scope, clause, true).map(|_| ()).map_err(|e| e.kind)
+    semantics::understand(&mut World::until(source.deadline), scope, clause, true).map(|_| ()).map_err(|e| e.kind)
 }
 
 impl Bench {
@@ -298,6 +344,10 @@ impl Bench {
             return Quick::Elsewhere;
         }
         let world = &mut self.claim.world;
+        // Where many formulas have filled the graph, the rest get one of their own each.
+        if world.graph.cut_short().is_some() {
+            return Quick::Elsewhere;
+        }
         let link = match semantics::understand(world, scope, &clause, true) {
             Ok(link) => link,
             Err(error) => return Quick::Error(error.kind),
@@ -306,6 +356,9 @@ impl Bench {
         for pair in pairs(world, &link, clause.rhs == Side::Constant) {
             let residual = self.claim.premises.resolve(&mut world.graph, pair.residual);
             outputs.extend([residual, world.graph.magnitude(residual)]);
+        }
+        if world.graph.cut_short().is_some() {
+            return Quick::Elsewhere;
         }
         let tape = Tape::compile(&world.graph, &outputs);
         if !self.cover(tape.inputs(), seed) {
@@ -331,8 +384,9 @@ impl Bench {
         let link = semantics::understand(world, scope, &clause, true).ok()?;
         let pairs = pairs(world, &link, clause.rhs == Side::Constant);
         let outputs: Vec<_> = pairs.iter().map(|p| self.claim.premises.resolve(&mut world.graph, p.residual)).collect();
+        let cut_short = world.graph.cut_short().is_some();
         let tape = Tape::compile(&world.graph, &outputs);
-        if !self.cover(tape.inputs(), seed) {
+        if cut_short || !self.cover(tape.inputs(), seed) {
             return None;
         }
         let mut work = Workspace::default();

@@ -51,6 +51,7 @@ fn meaning(error: &Error, span: Span) -> Problem {
         ErrorKind::Shape => "kenzan::shape",
         ErrorKind::Undeclared => "kenzan::undeclared",
         ErrorKind::Unsupported => "kenzan::unsupported",
+        ErrorKind::Limit => "kenzan::limit",
     };
     Problem { help: error.help.clone(), ..Problem::error(code, error.message.clone(), span) }
 }

@@ -1,5 +1,7 @@
 //! What the checker says of an equation: the data that every report is made from.
 
+use std::fmt;
+
 use serde::Serialize;
 
 use super::exact::Exact;
@@ -74,6 +76,87 @@ pub struct Counterexample {
     pub rhs: String,
     /// Which component or instance differs (`\xi component`, `i = 2`), where there are several.
     pub component: Option<String>,
+    /// The proof that the sides differ there (feature `rug`).
+    pub certificate: Option<Certificate>,
+    /// Why there is none, where one was tried for.
+    pub uncertified: Option<String>,
+}
+
+/// A proof that a link fails at a state: what is needed to repeat it.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Certificate {
+    /// The precision of the intervals' endpoints, in bits; none where all is computed in fractions.
+    pub bits: Option<u32>,
+    /// The symbols that may be chosen, with exact values: integers, fractions such as `1/2`, angles such as
+    /// `2 arctan(1/2)`.
+    pub state: Vec<ExactValue>,
+    /// The symbols that the premises determine there.
+    pub solved: Vec<Enclosure>,
+    /// What left minus right is proved to lie between, zero excluded (for an inequality: values of the wrong sign); one
+    /// for each of the two signs of ±.
+    pub differences: Vec<Enclosure>,
+}
+
+/// A symbol's exact value.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ExactValue {
+    /// The symbol's LaTeX.
+    pub symbol: String,
+    /// An integer, a fraction in lowest terms, or twice the arc tangent of one.
+    pub value: String,
+    /// Whether the sides do not depend on it.
+    pub idle: bool,
+}
+
+/// Decimals between which a number is proved to lie. Where the number is known exactly both are its decimal or fraction.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Enclosure {
+    /// The LaTeX of the symbol; the name of the component or instance, or nothing, for a difference.
+    pub name: Option<String>,
+    /// Not above the number.
+    pub low: String,
+    /// Not below it.
+    pub high: String,
+    /// Whether it is a symbol that does not occur in the sides.
+    pub idle: bool,
+}
+
+impl Certificate {
+    /// How it was computed, in a few words.
+    pub fn means(&self) -> String {
+        self.bits.map_or("in fractions".into(), |bits| format!("with {bits} bits"))
+    }
+}
+
+/// The certificate in a sentence, without the symbols that play no part.
+impl fmt::Display for Certificate {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let chosen = self.state.iter().filter(|v| !v.idle).map(|v| format!("{} = {}", v.symbol, v.value));
+        let solved = self.solved.iter().filter(|e| !e.idle).map(|e| match &e.name {
+            Some(symbol) => format!("{symbol} {}", e.place()),
+            None => e.place(),
+        });
+        let state: Vec<String> = chosen.chain(solved).collect();
+        if !state.is_empty() {
+            write!(f, "at {} ", state.join(", "))?;
+        }
+        let places = self.differences.iter().map(|e| match &e.name {
+            Some(component) => format!("{} ({component})", e.place()),
+            None => e.place(),
+        });
+        write!(f, "the difference {}, {}", places.collect::<Vec<_>>().join(" or "), self.means())
+    }
+}
+
+impl Enclosure {
+    /// `lies in [0.33, 0.34]`, or `is 2` where that is exact.
+    pub fn place(&self) -> String {
+        if self.low == self.high {
+            format!("is {}", self.low)
+        } else {
+            format!("lies in [{}, {}]", self.low, self.high)
+        }
+    }
 }
 
 /// The measured order of an approximation.
@@ -138,6 +221,15 @@ pub struct InferredDimension {
     pub from: String,
 }
 
+/// The bits of a double that rounding in the formula costs, over the states.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct LostBits {
+    /// Their mean.
+    pub mean: f64,
+    /// Those at the worst state.
+    pub worst: f64,
+}
+
 /// The judgement on one link of a chain.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct LinkJudgement {
@@ -168,6 +260,8 @@ pub struct LinkJudgement {
     pub exact: Option<Exact>,
     /// Why an equality that holds has no exact verdict.
     pub inexact: Option<String>,
+    /// What the side that is worse in doubles loses, for an equality.
+    pub lost_bits: Option<LostBits>,
 }
 
 /// The formula that should have been printed, with the judgement on it.
@@ -263,6 +357,10 @@ pub struct Judgement {
     pub sensitivity: Option<Sensitivity>,
     /// What was probably meant, where the equation fails and suggestions were asked for; the likeliest first.
     pub suggestions: Vec<Suggestion>,
+    /// Which diagnosis was asked for and cut short, and why; what there is of it is not all.
+    pub unfinished: Option<String>,
+    /// What doubles lose: the mean over the links, and the worst.
+    pub lost_bits: Option<LostBits>,
     /// The time it took, in microseconds.
     pub micros: u64,
     /// What stands in the way of a verdict, with its place in the file, where no link says it.

@@ -1,41 +1,41 @@
 //! What was probably meant: the formulas near a failing one that hold under the same check.
 //!
-//! The search knows the printed formula, the premises, and the symbols of the equations nearby; the annotated correction
-//! it does not see, nor may any premise rest on it. First come single edits; where none mends the formula, those that
-//! mend some of its links are continued, and then pairs of edits are tried, within a budget that counts formulas and not
-//! time, so that the same notes give the same suggestions.
+//! The search knows the printed formula, the premises, and the formulas nearby ([`near`](super::near)); the annotated
+//! correction it does not see, nor may any premise rest on it. Each row of sides that should be equal is searched by
+//! values ([`sides`](super::sides)): single edits and what fills a single hole first, and only where none of these mends
+//! the row, two edits of one side and one edit of each of several. Approximations, inequalities and solutions, which
+//! have no such values, are searched by trying ([`tries`](super::tries)). What is found is confirmed by the whole check.
+//!
+//! Ranked by [`likeness`]: cheap is what a scan loses. A suggestion that holds whatever is made of the edited term says
+//! nothing and comes last; of several that say the same the cheapest is kept. All budgets count formulas and not time,
+//! so that the same notes give the same suggestions.
 
-use std::collections::HashSet;
-
-use crate::check::verdict::{Judgement, Suggestion, Verdict};
-use crate::check::{Book, Options, Outcome, Trial, Version};
+use crate::check::verdict::{Judgement, LinkJudgement, Suggestion, Verdict};
+use crate::check::{Book, Options, Outcome, Screen, Trial, Version};
 use crate::latex::ast::{Kind, Node};
 use crate::latex::{self, to_latex};
-use crate::semantics::{EntryKind, Scope};
+use crate::semantics::{Clause, Scope, Side};
 
-use super::mutants::{EditKind, Mutant, Reach, mutants};
+use super::change::{Change, at};
+use super::edits::{Found, Walk};
+use super::lexicon::Lexicon;
+use super::likeness;
+use super::mutants::{EditKind, Reach, replaced_at};
 use super::names::Name;
+use super::near::Near;
+use super::shape::times;
+use super::sides::Row;
+use super::tries;
+use super::wider::wider;
 
 /// How many suggestions are made.
-const MOST: usize = 3;
-/// How many formulas are tried in all.
-const BUDGET: usize = 12_000;
-/// How many edits that mend links one by one are made.
-const DEPTH: usize = 4;
-/// The cost up to which an edit is likely enough for pairs to be tried.
-const LIKELY: u32 = 3;
-/// How many factors may be put in.
-const FACTORS: usize = 14;
-
-/// A formula some edits away from the printed one, the last of which is kept whole.
-#[derive(Clone)]
-struct Candidate {
-    tree: Node,
-    edits: Vec<String>,
-    cost: u32,
-    failing: usize,
-    last: Option<Mutant>,
-}
+pub const MOST: usize = 3;
+/// How many guesses are put to the whole check, for a row of sides.
+const CONFIRMED: usize = 48;
+/// How many guesses that hold are kept, for a row of sides.
+const HOLDING: usize = 12;
+/// How many formulas are tried whose sides the solved states do not cover.
+const ELSEWHERE: usize = 120;
 
 /// The formulas near a failing one that hold, the likeliest first; none where the equation does not fail.
 pub fn suggestions(book: &Book, index: usize, judgement: &Judgement, options: &Options) -> Vec<Suggestion> {
@@ -44,189 +44,232 @@ pub fn suggestions(book: &Book, index: usize, judgement: &Judgement, options: &O
     }
     let mut blind = book.clone();
     blind.entries[index].correction = None;
-    let Some(mut trial) = Trial::new(&blind, index, Version::Printed, &judgement.links, options) else {
-        return Vec::new();
-    };
-    let entry = &blind.entries[index];
-    let Ok(tree) = &entry.formula(Version::Printed).tree else { return Vec::new() };
-    let factors = factors(&blind, index, tree);
-    let reach = Reach { siblings: None, factors: &factors };
-    let mut search = Search { trial: &mut trial, scope: &entry.scope, reach, left: BUDGET, seen: HashSet::new() };
-    let failing = judgement.links.iter().filter(|l| l.verdict > Verdict::Asymptotic).count().max(1);
-    let start = Candidate { tree: tree.clone(), edits: Vec::new(), cost: 0, failing, last: None };
-    let found = search.run(start);
-    let suggestion = |c: Candidate| Suggestion { latex: to_latex(&c.tree), edit: c.edits.join("; ") };
+    match &blind.entries[index].formula(Version::Printed).tree {
+        Ok(tree) => meant(&blind, index, tree, &judgement.links, options),
+        Err(_) => Vec::new(),
+    }
+}
+
+/// The formulas near one that stands in the place of an equation and fails, the likeliest first. `links` is the
+/// judgement on it.
+pub fn meant(book: &Book, index: usize, tree: &Node, links: &[LinkJudgement], options: &Options) -> Vec<Suggestion> {
+    let mut printed = book.clone();
+    let latex = to_latex(tree);
+    printed.entries[index].reading = Some(crate::check::Formula { latex, tree: Ok(tree.clone()) });
+    printed.entries[index].correction = None;
+    let Some(trial) = Trial::new(&printed, index, Version::Printed, links, options) else { return Vec::new() };
+    let near = Near::new(&printed, index, tree);
+    let mut search = Search { book: &printed, index, tree, links, options, trial, near };
+    let found = search.run();
+    let suggestion =
+        |(change, tree): (Change, Node)| Suggestion { latex: to_latex(&tree), edit: change.edits.join("; ") };
     found.into_iter().take(MOST).map(suggestion).collect()
 }
 
-struct Search<'t, 'b> {
-    trial: &'t mut Trial<'b>,
-    scope: &'t Scope,
-    reach: Reach<'t>,
-    left: usize,
-    seen: HashSet<String>,
+struct Search<'b> {
+    book: &'b Book,
+    index: usize,
+    tree: &'b Node,
+    links: &'b [LinkJudgement],
+    options: &'b Options,
+    trial: Trial<'b>,
+    near: Near,
 }
 
-impl Search<'_, '_> {
-    fn run(&mut self, start: Candidate) -> Vec<Candidate> {
-        let mut from = start;
-        let mut singles = self.neighbours(&from);
-        for _ in 0..DEPTH {
-            let found = self.confirmed(&singles);
-            if !found.is_empty() {
-                return found;
-            }
-            // The likeliest of the edits that mend most links is kept.
-            let better = singles.iter().filter(|c| c.failing < from.failing);
-            let Some(best) = better.min_by_key(|c| (c.failing, c.cost)).cloned() else { break };
-            singles = self.neighbours(&best);
-            from = best;
-        }
-        let sums = self.sums(&from, &singles);
-        if sums.is_empty() { self.pairs(&singles) } else { sums }
+impl<'b> Search<'b> {
+    fn scope(&self) -> &'b Scope {
+        &self.book.entries[self.index].scope
     }
 
-    /// Pairs of edits in different terms: they change the residual R by the sum of their changes, so that
-    /// R₁ + R₂ - R = 0. These are looked up, not tried, and only what is found is judged.
-    fn sums(&mut self, from: &Candidate, singles: &[Candidate]) -> Vec<Candidate> {
-        let Some(own) = self.trial.failing_residuals(&from.tree) else { return Vec::new() };
-        let mut values: Vec<(Vec<f64>, &Candidate)> = Vec::new();
-        for single in singles {
-            if let Some(v) = self.trial.failing_residuals(&single.tree).filter(|v| v.len() == own.len()) {
-                values.push((v, single));
-            }
-        }
-        let size = own.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
-        let mut pairs = Vec::new();
-        for (k, (v, a)) in values.iter().enumerate() {
-            for (w, b) in &values[k + 1..] {
-                let meets = |i: usize| (v[i] + w[i] - own[i]).abs() <= 1e-9 * (size + v[i].abs());
-                if (0..own.len()).all(meets) {
-                    pairs.extend(a.and(b));
-                }
-            }
-        }
-        self.confirmed(&pairs)
-    }
-
-    /// Pairs of likely edits, the likeliest and nearest to each other first.
-    fn pairs(&mut self, singles: &[Candidate]) -> Vec<Candidate> {
-        let likely: Vec<&Candidate> =
-            singles.iter().filter(|c| c.last.as_ref().is_some_and(|m| cost(m.edit.kind) <= LIKELY)).collect();
-        let place = |c: &Candidate| c.last.as_ref().map_or(0, |m| m.edit.span.start);
-        let mut order: Vec<(u32, usize, usize, usize)> = Vec::new();
-        for (i, a) in likely.iter().enumerate() {
-            for (j, b) in likely.iter().enumerate().skip(i + 1) {
-                order.push((a.cost + b.cost, place(a).abs_diff(place(b)), i, j));
-            }
-        }
-        order.sort_unstable();
-        let mut found = Vec::new();
-        for (_, _, i, j) in order {
-            if self.left == 0 || found.len() >= MOST {
-                break;
-            }
-            let Some(mut pair) = likely[i].and(likely[j]) else { continue };
-            self.left -= 1;
-            if self.trial.failing_links(&pair.tree) == Some(0) {
-                pair.failing = 0;
-                found.extend(self.confirmed(&[pair]));
-            }
-        }
-        found
-    }
-
-    /// All formulas one edit further that were not tried before, with the number of links that fail.
-    fn neighbours(&mut self, from: &Candidate) -> Vec<Candidate> {
-        let mut all = mutants(&from.tree, self.scope, self.reach);
-        all.sort_by_key(|m| cost(m.edit.kind));
-        let mut found = Vec::new();
-        for mutant in all {
-            if self.left == 0 {
-                break;
-            }
-            if !self.seen.insert(to_latex(&mutant.tree)) {
+    fn run(&mut self) -> Vec<(Change, Node)> {
+        let Ok(statement) = self.book.statement_of(self.index, self.tree) else { return Vec::new() };
+        let singles = self.singles();
+        let mut joined = vec![Change::default()];
+        for row in rows(&statement.clauses, self.links) {
+            if !row.iter().any(|k| self.fails(*k)) {
                 continue;
             }
-            self.left -= 1;
-            if let Some(failing) = self.trial.failing_links(&mutant.tree) {
-                found.push(from.with(mutant, failing));
+            let Some(found) = self.row(&statement.clauses, &row, &singles) else {
+                let singles = self.tried();
+                joined = tries::search(&mut self.trial, self.tree, &singles, self.links);
+                break;
+            };
+            joined = joined.iter().flat_map(|a| found.iter().filter_map(|b| a.and(b))).collect();
+            joined.sort_by_key(|c| c.cost);
+            joined.truncate(4 * HOLDING);
+        }
+        joined.retain(|c| !c.is_none());
+        self.ranked(joined)
+    }
+
+    fn fails(&self, link: usize) -> bool {
+        self.links.get(link).is_none_or(|l| l.verdict > Verdict::Asymptotic)
+    }
+
+    /// All single edits, those of a symbol also in every place at once.
+    fn singles(&self) -> Vec<Change> {
+        let half: Vec<Node> = latex::parse("\\frac{1}{2}").into_iter().collect();
+        let mut walk = Walk::new(self.scope(), Reach { siblings: None, factors: &half });
+        walk.visit(self.tree);
+        let found = walk.found.into_iter().chain(wider(self.tree, self.scope(), &self.near));
+        let changes: Vec<(EditKind, Change)> = found.map(|f| (f.edit.kind, self.change(f))).collect();
+        let mut all: Vec<Change> = Vec::new();
+        for (n, (kind, change)) in changes.iter().enumerate() {
+            if repeats(*kind) {
+                let same = |other: &&(EditKind, Change)| other.1.edits == change.edits;
+                let is_first = !changes[..n].iter().any(|c| same(&c));
+                let mut everywhere = change.clone();
+                everywhere.places = changes.iter().filter(same).flat_map(|c| c.1.places.clone()).collect();
+                if is_first && everywhere.places.len() > 1 {
+                    everywhere.edits = vec![format!("{} throughout", change.edits.join("; "))];
+                    everywhere.cost += likeness::THROUGHOUT;
+                    all.push(everywhere);
+                }
+            }
+            all.push(change.clone());
+        }
+        all.sort_by_key(|c| c.cost);
+        all
+    }
+
+    /// What is tried where there are no values: single edits with factors put in.
+    fn tried(&self) -> Vec<Change> {
+        let factors = tries::factors(&self.near, self.scope());
+        let mut walk = Walk::new(self.scope(), Reach { siblings: None, factors: &factors });
+        walk.visit(self.tree);
+        let found = walk.found.into_iter().chain(wider(self.tree, self.scope(), &self.near));
+        let mut all: Vec<Change> = found.map(|f| self.change(f)).collect();
+        all.sort_by_key(|c| c.cost);
+        all
+    }
+
+    fn change(&self, found: Found) -> Change {
+        let Found { path, node, edit } = found;
+        let before = at(self.tree, &path).unwrap_or(self.tree);
+        let scope = self.scope();
+        let mut cost = likeness::cost(scope, edit.kind, before, &node);
+        // What a formula is printed for stands by itself: a factor is rather missing elsewhere.
+        let is_side =
+            path.split_last().and_then(|(_, p)| at(self.tree, p)).is_some_and(|p| matches!(p.kind, Kind::Chain { .. }));
+        if is_side && Name::of(scope, before).is_some() && matches!(edit.kind, EditKind::Insert | EditKind::Double) {
+            cost += likeness::SUBJECT;
+        }
+        if let Some(name) = Name::of(scope, &node) {
+            cost += self.near.distance(&name.entry.pattern);
+        }
+        Change::new(path, node, edit.text, cost)
+    }
+
+    /// What mends a row of sides, the likeliest first; `None` where it cannot be searched by values.
+    fn row(&mut self, clauses: &[Clause], numbers: &[usize], singles: &[Change]) -> Option<Vec<Change>> {
+        let known: Vec<Clause> = (0..numbers[0])
+            .filter(|k| self.links.get(*k).is_some_and(|l| l.verdict == Verdict::Definition))
+            .map(|k| clauses[k].clone())
+            .collect();
+        let own: Vec<Clause> = numbers.iter().map(|k| clauses[*k].clone()).collect();
+        let mut screen = Screen::new(self.book, self.index, Version::Printed, &own, &known, self.options)?;
+        let lexicon = Lexicon::new(&mut screen, self.scope(), &self.near, self.tree);
+        let mut row = Row::new(&mut screen, &own, self.tree)?;
+        row.enter(singles);
+        row.enter_on_sense(singles);
+        row.fill(&lexicon);
+        let mut found = self.confirmed(row.matches(), numbers);
+        let elsewhere: Vec<Change> = std::mem::take(&mut row.elsewhere).into_iter().take(ELSEWHERE).collect();
+        found.extend(self.confirmed(elsewhere, numbers));
+        if found.iter().all(|c| self.is_idle(c)) {
+            row.pair();
+            row.fill_edited(&lexicon);
+            found.extend(self.confirmed(row.matches(), numbers));
+        }
+        Some(found)
+    }
+
+    /// Those that hold by the whole check, in the order in which they come.
+    fn confirmed(&mut self, guesses: Vec<Change>, links: &[usize]) -> Vec<Change> {
+        let mut found = Vec::new();
+        for change in guesses.into_iter().take(CONFIRMED) {
+            if found.len() >= HOLDING || self.trial.deadline().has_passed() {
+                break;
+            }
+            match self.trial.outcome_at(&change.made(self.tree), links) {
+                Outcome::Holds => found.push(change),
+                // What then only introduces a symbol can contradict nothing: it may have been meant, with little reason.
+                Outcome::Definition => found.push(Change { cost: change.cost + likeness::DEFINES, ..change }),
+                _ => {}
             }
         }
         found
     }
 
-    /// Those that hold by the whole check.
-    fn confirmed(&mut self, candidates: &[Candidate]) -> Vec<Candidate> {
-        let mended = candidates.iter().filter(|c| c.failing == 0);
-        let mut found: Vec<Candidate> =
-            mended.filter(|c| self.trial.judge(&c.tree) == Outcome::Holds).cloned().collect();
-        found.sort_by_key(|c| (c.cost, c.tree_size()));
+    /// The formulas that hold as a whole; idle ones last, and of those that say the same the first.
+    fn ranked(&mut self, mut changes: Vec<Change>) -> Vec<(Change, Node)> {
+        changes.sort_by_key(|c| (c.cost, to_latex(&c.made(self.tree)).len()));
+        let mut found: Vec<(Change, Node)> = Vec::new();
+        let mut idle: Vec<(Change, Node)> = Vec::new();
+        for change in changes {
+            if found.len() >= MOST || self.trial.deadline().has_passed() {
+                break;
+            }
+            let made = change.made(self.tree);
+            // A definition beside what is mended may change with it.
+            if !matches!(self.trial.judge(&made), Outcome::Holds | Outcome::Definition) {
+                continue;
+            }
+            // What is suggested is what is read from its LaTeX.
+            let tree = match latex::parse(&to_latex(&made)) {
+                Ok(tree) if matches!(self.trial.judge(&tree), Outcome::Holds | Outcome::Definition) => tree,
+                _ => continue,
+            };
+            if found.iter().chain(&idle).any(|(_, t)| self.trial.say_the_same(t, &tree)) {
+                continue;
+            }
+            let group = if self.is_idle(&change) { &mut idle } else { &mut found };
+            group.push((change, tree));
+        }
+        found.extend(idle);
         found
     }
-}
 
-impl Candidate {
-    fn with(&self, mutant: Mutant, failing: usize) -> Candidate {
-        let edits = self.edits.iter().cloned().chain([mutant.edit.text.clone()]).collect();
-        let cost = self.cost + cost(mutant.edit.kind);
-        Candidate { tree: mutant.tree.clone(), edits, cost, failing, last: Some(mutant) }
-    }
-
-    /// Both this one's last edit and that of another neighbour of the same formula; taken to mend everything.
-    fn and(&self, other: &Candidate) -> Option<Candidate> {
-        let (own, second) = (self.last.as_ref()?, other.last.as_ref()?);
-        let tree = own.with(second)?;
-        let edits = self.edits.iter().cloned().chain([second.edit.text.clone()]).collect();
-        Some(Candidate { tree, edits, cost: self.cost + cost(second.edit.kind), failing: 0, last: None })
-    }
-
-    fn tree_size(&self) -> usize {
-        to_latex(&self.tree).len()
-    }
-}
-
-/// How unlikely an edit is: what a scan or a tired hand confuses is cheap, what changes the shape of a formula dear.
-fn cost(kind: EditKind) -> u32 {
-    match kind {
-        EditKind::Index | EditKind::Dot | EditKind::Prime | EditKind::Symbol | EditKind::Power => 2,
-        EditKind::Sign | EditKind::Function | EditKind::Number | EditKind::Bracket => 3,
-        EditKind::DropFactor | EditKind::Insert => 4,
-        EditKind::Double => 5,
-        EditKind::DropTerm => 6,
-        EditKind::Invert => 7,
+    /// Whether the formula holds as well with an edited term made seven times as large: then the term vanishes on the
+    /// premises, and the edit could have been any other. Where a side is 0 as it stands, nothing is said.
+    fn is_idle(&mut self, change: &Change) -> bool {
+        let made = change.made(self.tree);
+        change.places.iter().any(|(path, _)| {
+            let is_sum =
+                |k: &usize| at(&made, &path[..*k]).is_some_and(|n| matches!(n.kind, Kind::Sum(_) | Kind::Chain { .. }));
+            let Some(length) = (0..path.len()).rev().find(is_sum) else { return false };
+            let term = &path[..=length];
+            let Some(node) = at(&made, term) else { return false };
+            let seven = Node::new(Kind::Number("7".into()), node.span.clone());
+            let scaled = replaced_at(&made, term, &times(&seven, node));
+            let beside_null = at(&made, &path[..length]).is_some_and(|parent| {
+                matches!(parent.kind, Kind::Chain { .. }) && parent.children().into_iter().any(super::shape::is_null)
+            });
+            !beside_null && self.trial.judge(&scaled) == Outcome::Holds
+        })
     }
 }
 
-/// The factors that may have been left out: one half, the scalars of the formula and of its premises, and the sines and
-/// cosines of its angles.
-fn factors(book: &Book, index: usize, tree: &Node) -> Vec<Node> {
-    let entry = &book.entries[index];
-    let mut near: Vec<&Node> = vec![tree];
-    let given = entry.given(None).into_iter().chain(entry.list(|a| &a.solves));
-    let indices = given.filter_map(|g| book.find(&g.value)).map(|(k, _)| k).chain(entry.previous);
-    near.extend(indices.filter_map(|k| book.entries[k].formula(Version::Corrected).tree.as_ref().ok()));
-    let mut scalars: Vec<Node> = Vec::new();
-    near.iter().for_each(|n| collect(&entry.scope, n, &mut scalars));
-    let angles =
-        scalars.iter().filter(|n| Name::of(&entry.scope, n).is_some_and(|n| n.entry.is_angle() && n.dots == 0));
-    let turned = angles.flat_map(|n| ["\\sin", "\\cos"].map(|f| latex::parse(&format!("{f} {}", to_latex(n)))));
-    let half = latex::parse("\\frac{1}{2}");
-    let mut all: Vec<Node> = turned.chain([half]).filter_map(Result::ok).collect();
-    all.extend(scalars);
-    all.truncate(FACTORS);
-    all
+/// Whether an edit is likely to be made in every place at once: what was misread once is misread again.
+fn repeats(kind: EditKind) -> bool {
+    matches!(
+        kind,
+        EditKind::Symbol | EditKind::Index | EditKind::Prime | EditKind::Dot | EditKind::Replace | EditKind::DropFactor
+    )
 }
 
-/// The scalars of a formula, without powers, each once.
-fn collect(scope: &Scope, node: &Node, found: &mut Vec<Node>) {
-    if let Some(name) = Name::of(scope, node) {
-        let is_scalar = matches!(name.entry.kind, EntryKind::Scalar | EntryKind::Component { .. });
-        let bare = name.without_power();
-        if is_scalar && found.iter().all(|f| to_latex(f) != to_latex(&bare)) {
-            found.push(bare);
+/// The links of each row of sides that are linked by equality, definitions aside.
+fn rows(clauses: &[Clause], links: &[LinkJudgement]) -> Vec<Vec<usize>> {
+    let mut rows: Vec<Vec<usize>> = Vec::new();
+    for (k, clause) in clauses.iter().enumerate() {
+        if links.get(k).is_some_and(|l| l.verdict == Verdict::Definition) {
+            continue;
         }
-    } else if !matches!(node.kind, Kind::Text(_)) {
-        node.children().into_iter().for_each(|child| collect(scope, child, found));
+        let linked = |last: &usize| *last + 1 == k && clauses[*last].rhs == Side::Node(clause.lhs.clone());
+        match rows.last_mut() {
+            Some(row) if row.last().is_some_and(linked) => row.push(k),
+            _ => rows.push(vec![k]),
+        }
     }
+    rows
 }

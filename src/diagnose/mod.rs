@@ -4,11 +4,20 @@
 //! formula that holds, [`correct`] searches the neighbours of one that fails. Both are judged by
 //! [`Trial`](crate::check::Trial), which is the check itself.
 
+mod change;
 pub mod correct;
 mod edits;
+mod lexicon;
+mod likeness;
+pub mod measure;
 pub mod mutants;
 mod names;
+mod near;
 pub mod sensitivity;
+mod shape;
+mod sides;
+mod tries;
+mod wider;
 
 #[cfg(test)]
 mod tests;

@@ -43,6 +43,12 @@ pub enum EditKind {
     Bracket,
     /// A factor is put in.
     Insert,
+    /// A cross for a dot.
+    Operator,
+    /// A term is put in.
+    Term,
+    /// A symbol is replaced by a product.
+    Replace,
 }
 
 /// A single edit.
@@ -90,11 +96,18 @@ impl Reach<'_> {
     pub const MUTANTS: Reach<'static> = Reach { siblings: Some(2), factors: &[] };
 }
 
+/// The longest formula of which mutants are made, in bytes: n places to edit make n formulas of n parts.
+const LONGEST: usize = 2000;
+
 /// The formulas that are one edit away, no two with the same LaTeX, in the order of writing.
 pub fn mutants(tree: &Node, scope: &Scope, reach: Reach) -> Vec<Mutant> {
+    let latex = to_latex(tree);
+    if latex.len() > LONGEST {
+        return Vec::new();
+    }
     let mut walk = Walk::new(scope, reach);
     walk.visit(tree);
-    let mut seen: HashSet<String> = HashSet::from([to_latex(tree)]);
+    let mut seen: HashSet<String> = HashSet::from([latex]);
     let mutated = walk.found.into_iter().map(|Found { path, node, edit }| {
         let tree = replaced_at(tree, &path, &node);
         Mutant { tree, edit, path, node }
@@ -103,7 +116,7 @@ pub fn mutants(tree: &Node, scope: &Scope, reach: Reach) -> Vec<Mutant> {
 }
 
 /// The tree with the node at a path (child by child from the root) replaced.
-fn replaced_at(node: &Node, path: &[usize], new: &Node) -> Node {
+pub(super) fn replaced_at(node: &Node, path: &[usize], new: &Node) -> Node {
     let Some((first, rest)) = path.split_first() else { return new.clone() };
     let mut k = 0;
     node.map_children(&mut |child| {

@@ -168,11 +168,25 @@ fn role(entry: &Entry) -> (u8, Option<&str>) {
     }
 }
 
+/// Whether two symbols differ by letters that look alike, and by nothing else.
+pub fn look_alike(a: &Node, b: &Node) -> bool {
+    let (a, b) = (parts(a), parts(b));
+    a.sub == b.sub && a.primes == b.primes && alike(&a.letter, &b.letter)
+}
+
 /// Letters that scans and readers confuse.
 fn alike(a: &str, b: &str) -> bool {
-    const GROUPS: [&[&str]; 9] = [
+    const GROUPS: [&[&str]; 17] = [
         &["\\varphi", "\\phi", "\\psi"],
         &["\\theta", "\\vartheta", "\\Theta", "0"],
+        &["0", "o", "O"],
+        &["\\alpha", "a"],
+        &["\\beta", "B"],
+        &["\\gamma", "\\Gamma"],
+        &["\\epsilon", "\\varepsilon"],
+        &["\\kappa", "k", "K"],
+        &["\\lambda", "\\Lambda"],
+        &["\\delta", "\\Delta"],
         &["\\omega", "\\Omega", "w"],
         &["\\eta", "n", "\\zeta", "\\xi"],
         &["m", "M"],
@@ -186,12 +200,17 @@ fn alike(a: &str, b: &str) -> bool {
 
 /// A symbol of a family with the indices of another one: `\eta_#` with those of `\xi_i` is `\eta_i`.
 fn instance(scope: &Scope, pattern: &str, like: &Node) -> Option<Node> {
-    let mut letters = indices(scope, like).into_iter();
+    with_indices(pattern, &indices(scope, like))
+}
+
+/// A symbol of a family with these indices: `\eta_#` with `i` is `\eta_i`; `None` where their number differs.
+pub fn with_indices(pattern: &str, letters: &[String]) -> Option<Node> {
+    let mut letters = letters.iter();
     let mut text = String::new();
     for c in pattern.chars() {
         match c {
             '#' => {
-                text.push_str(&letters.next()?);
+                text.push_str(letters.next()?);
                 text.push(' ');
             }
             c => text.push(c),
@@ -201,7 +220,7 @@ fn instance(scope: &Scope, pattern: &str, like: &Node) -> Option<Node> {
 }
 
 /// The index letters in the scripts of a symbol.
-fn indices(scope: &Scope, node: &Node) -> Vec<String> {
+pub fn indices(scope: &Scope, node: &Node) -> Vec<String> {
     let mut letters = Vec::new();
     if let Kind::Scripts { sub, sup, .. } = &node.kind {
         for script in [sub, sup].into_iter().flatten() {

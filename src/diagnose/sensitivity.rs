@@ -38,7 +38,9 @@ pub fn try_mutants(book: &Book, index: usize, judgement: &Judgement, options: &O
     let tree = entry.formula(version).tree.as_ref().ok()?;
     let mut trial = Trial::new(book, index, version, links, options)?;
     let synonyms = Synonyms::new(book, index);
-    let tried = mutants(tree, &entry.scope, Reach::MUTANTS).into_iter().map(|mutant| {
+    let deadline = trial.deadline();
+    let all = mutants(tree, &entry.scope, Reach::MUTANTS).into_iter().take_while(|_| !deadline.has_passed());
+    let tried = all.map(|mutant| {
         let outcome = trial.judge(&mutant.tree);
         let equivalent = outcome == Outcome::Holds
             && (trial.is_equivalent(&mutant.tree) || synonyms.unify(tree) == synonyms.unify(&mutant.tree));

@@ -3,7 +3,6 @@
 use super::Document;
 use super::place::Span;
 use miette::{LabeledSpan, MietteDiagnostic, NamedSource, Report};
-use std::sync::Arc;
 
 /// How bad a problem is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash)]
@@ -72,20 +71,21 @@ impl Problem {
             Severity::Error => miette::Severity::Error,
             Severity::Warning => miette::Severity::Warning,
         };
-        let mut diagnostic = MietteDiagnostic::new(self.message.as_str()).with_code(self.code).with_severity(severity);
+        let mut diagnostic =
+            MietteDiagnostic::new(harmless(&self.message)).with_code(self.code).with_severity(severity);
         if let Some(help) = &self.help {
-            diagnostic = diagnostic.with_help(help.as_str());
+            diagnostic = diagnostic.with_help(harmless(help));
         }
         let shown = |span: &Span| printable(&document.source, span);
         if !shown(&self.span) || !self.other.iter().all(|(span, _)| shown(span)) {
-            diagnostic.message = format!("{} ({})", self.message, self.location(document));
+            diagnostic.message = harmless(&format!("{} ({})", self.message, self.location(document)));
             return Report::new(diagnostic);
         }
         let mut labels = vec![LabeledSpan::new_primary_with_span(self.label.clone(), self.span.clone())];
         labels.extend(
             self.other.iter().map(|(span, label)| LabeledSpan::new_with_span(Some(label.clone()), span.clone())),
         );
-        let source = NamedSource::new(document.path.to_string_lossy(), Arc::clone(&document.source));
+        let source = NamedSource::new(harmless(&document.path.to_string_lossy()), harmless(&document.source));
         Report::new(diagnostic.with_labels(labels)).with_source_code(source)
     }
 
@@ -109,6 +109,17 @@ impl Problem {
         let (line, column) = document.line_column(self.span.start);
         format!("{}:{line}:{column}", document.path.display())
     }
+}
+
+/// A text in which nothing steers the terminal: control characters become signs of the same length in bytes.
+fn harmless(text: &str) -> String {
+    let sign = |c: char| match c {
+        '\n' | '\t' | '\r' => c,
+        '\u{80}'..='\u{9f}' => '¿',
+        c if c.is_control() => '?',
+        c => c,
+    };
+    text.chars().map(sign).collect()
 }
 
 /// Whether the lines that hold a span are short enough to be printed.

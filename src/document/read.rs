@@ -2,8 +2,12 @@
 
 use super::{Document, markdown};
 use miette::Diagnostic;
+use std::io::Read;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
+
+/// The largest file that is read, in bytes.
+const LARGEST: u64 = 64 << 20;
 
 /// Why a file could not be read as notes.
 #[derive(Debug, Error, Diagnostic)]
@@ -30,6 +34,13 @@ pub enum ReadError {
         path: PathBuf,
         /// What the system says.
         source: std::io::Error,
+    },
+    /// The file is larger than any notes.
+    #[error("`{}` is larger than {} MB", path.display(), LARGEST >> 20)]
+    #[diagnostic(code(document::too_large), help("are these notes? If so, verify them in parts"))]
+    TooLarge {
+        /// The path.
+        path: PathBuf,
     },
     /// The file is not encoded in UTF-8.
     #[error("{}:{line}:{column}: the file is not UTF-8: this byte cannot stand here", path.display())]
@@ -73,7 +84,12 @@ pub enum ReadError {
 /// [`ReadError`], when there is nothing to work on. A file without an equation but with problems (its only display is
 /// not closed) is delivered, so that the problems are seen.
 pub fn read(path: &Path) -> Result<Document, ReadError> {
-    let bytes = std::fs::read(path).map_err(|error| not_read(path, error))?;
+    let mut bytes = Vec::new();
+    let file = std::fs::File::open(path).map_err(|error| not_read(path, error))?;
+    file.take(LARGEST + 1).read_to_end(&mut bytes).map_err(|error| not_read(path, error))?;
+    if bytes.len() as u64 > LARGEST {
+        return Err(ReadError::TooLarge { path: path.to_owned() });
+    }
     let source = String::from_utf8(bytes).map_err(|error| {
         let offset = error.utf8_error().valid_up_to();
         // What stands before the offset is valid.

@@ -42,6 +42,9 @@ pub(super) fn parse(source: &str, range: Span, problems: &mut Vec<Problem>) -> O
     }
 }
 
+/// The most entries of a declared matrix.
+const MOST_ENTRIES: f64 = 1000.0;
+
 const IN_SINGLE_QUOTES: &str =
     r"write LaTeX in single quotes, where a backslash is a backslash: reading = 'a = \theta'";
 
@@ -277,6 +280,13 @@ impl Reader<'_> {
         let shape = self.pair(key, value, expected, &example)?;
         if shape.iter().any(|size| !(1.0..=1e4).contains(size) || size.fract() != 0.0) {
             self.wrong(key, value, expected, &example);
+            return None;
+        }
+        if shape[0] * shape[1] > MOST_ENTRIES {
+            let message = format!("a matrix of {} entries; at most {MOST_ENTRIES} are read", shape[0] * shape[1]);
+            let problem = Problem::error("document::matrix", message, value.span.clone());
+            self.problems
+                .push(problem.label("each entry is a symbol of its own").help("a handful shows what any number does"));
             return None;
         }
         Some(shape.map(|size| size as usize))

@@ -4,10 +4,22 @@
 //! The constructors simplify only what is beyond doubt: constants are folded exactly, neutral elements vanish,
 //! operands of sums and products are ordered. They never distribute, factor or cancel quotients, and never fold a
 //! division by the constant zero. `0·x` and `x - x` are zero even where `x` itself is singular.
+//!
+//! A graph that has [`MOST_NODES`] nodes, or whose time is used up, takes in nothing more: it is cut short, for good, and
+//! what its constructors return from then on means nothing. Whoever builds something asks [`Graph::cut_short`] before
+//! the result is used.
 
+use super::deadline::{Cut, Deadline};
 use super::ratio::{self, Ratio};
 use crate::number::{Elliptic, Func};
 use std::collections::HashMap;
+use std::collections::hash_map::Entry;
+
+/// The most nodes of a graph: some 200 MB, a hundred times what notes need.
+pub const MOST_NODES: usize = 1 << 20;
+
+/// How many nodes are added between two looks at the clock.
+const NODES_BETWEEN_LOOKS: usize = 1024;
 
 /// An expression: an index into its graph.
 #[derive(Copy, Clone, Eq, PartialEq, Hash, Ord, PartialOrd, Debug)]
@@ -106,6 +118,10 @@ pub struct Graph {
     symbols: Vec<SymbolInfo>,
     names: HashMap<String, SymId>,
     derivatives: HashMap<(SymId, u32), SymId>,
+    deadline: Deadline,
+    /// The most nodes, where that is less than [`MOST_NODES`].
+    room: Option<usize>,
+    cut: Option<Cut>,
 }
 
 /// Symbols.
@@ -113,6 +129,29 @@ impl Graph {
     /// An empty graph.
     pub fn new() -> Self {
         Self::default()
+    }
+
+    /// An empty graph that is cut short when the time is used up.
+    pub fn until(deadline: Deadline) -> Self {
+        Graph { deadline, ..Self::default() }
+    }
+
+    /// An empty graph that is cut short when it has so many nodes.
+    pub fn with_room(nodes: usize) -> Self {
+        Graph { room: Some(nodes.min(MOST_NODES)), ..Self::default() }
+    }
+
+    /// The moment at which the time is used up.
+    pub fn deadline(&self) -> Deadline {
+        self.deadline
+    }
+
+    /// Whether something could not be taken in, and why: what was built since is not to be used. Looks at the clock.
+    pub fn cut_short(&mut self) -> Option<Cut> {
+        if self.cut.is_none() && self.deadline.has_passed() {
+            self.cut = Some(Cut::Time);
+        }
+        self.cut
     }
 
     /// The symbol of this name; a new one is constant in time.
@@ -198,11 +237,21 @@ fn derivative_name(name: &str, order: u32) -> String {
 /// Constructors.
 impl Graph {
     pub(super) fn intern(&mut self, node: Node) -> Expr {
-        let nodes = &mut self.nodes;
-        *self.interned.entry(node).or_insert_with(|| {
-            nodes.push(node);
-            Expr((nodes.len() - 1) as u32)
-        })
+        match self.interned.entry(node) {
+            Entry::Occupied(known) => *known.get(),
+            // Any expression will do: it is not to be used.
+            Entry::Vacant(_) if self.cut.is_some() => Expr(0),
+            Entry::Vacant(new) => {
+                let e = *new.insert(Expr(self.nodes.len() as u32));
+                self.nodes.push(node);
+                if self.nodes.len() >= self.room.unwrap_or(MOST_NODES) {
+                    self.cut = Some(Cut::Size);
+                } else if self.nodes.len().is_multiple_of(NODES_BETWEEN_LOOKS) {
+                    self.cut_short();
+                }
+                e
+            }
+        }
     }
 
     fn exact(&mut self, r: Option<Ratio>) -> Option<Expr> {

@@ -1,5 +1,6 @@
 //! Scalar expressions: a graph with shared subexpressions, and calculus on it.
 
+mod deadline;
 pub mod diff;
 mod display;
 mod elliptic;
@@ -11,7 +12,8 @@ mod rewrite;
 pub mod tape;
 
 pub use crate::number::{Elliptic, Func};
-pub use graph::{Expr, Graph, Node, SymId, SymbolInfo};
+pub use deadline::{Cut, Deadline};
+pub use graph::{Expr, Graph, MOST_NODES, Node, SymId, SymbolInfo};
 pub use tape::{Tape, Workspace};
 
 #[cfg(test)]

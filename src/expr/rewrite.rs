@@ -28,6 +28,9 @@ impl Graph {
 
     /// The expression with symbols replaced, all at once: what is put in is not itself replaced.
     pub fn substitute(&mut self, e: Expr, map: &HashMap<SymId, Expr>) -> Expr {
+        if self.cut_short().is_some() {
+            return e;
+        }
         let mut new: HashMap<Expr, Expr> = HashMap::new();
         for old in self.reachable(&[e]) {
             let replaced = match *self.node(old) {

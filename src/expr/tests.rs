@@ -2,6 +2,7 @@
 
 use super::*;
 use std::collections::HashMap;
+use std::time::Duration;
 
 fn xy(g: &mut Graph) -> (Expr, Expr) {
     let (x, y) = (g.symbol("x"), g.symbol("y"));
@@ -181,18 +182,48 @@ fn many_terms_do_not_overflow_the_stack() {
     let (sx, t) = (g.time_symbol("x"), g.symbol("t"));
     let mut e = g.sym(sx);
     let x = e;
-    for n in 2..=200_000 {
+    for n in 2..=100_000 {
         let n = g.int(n);
         let term = g.div(x, n);
         e = g.add(e, term);
     }
-    assert_eq!(g.terms(e).len(), 200_000);
+    assert_eq!(g.terms(e).len(), 100_000);
     assert_eq!(g.symbols(&[e]).len(), 1);
     let d = g.time_derivative(e, Some(t));
-    assert_eq!(g.terms(d).len(), 200_000);
+    assert_eq!(g.terms(d).len(), 100_000);
     let y = g.symbol("y");
     let y = g.sym(y);
     let replaced = g.substitute(e, &HashMap::from([(sx, y)]));
-    assert_eq!(g.terms(replaced).len(), 200_000);
+    assert_eq!(g.terms(replaced).len(), 100_000);
     assert!(g.display(e).ends_with('…'));
+}
+
+#[test]
+fn a_graph_that_outgrows_every_use_takes_in_nothing_more() {
+    let mut g = Graph::new();
+    let x = g.symbol("x");
+    let x = g.sym(x);
+    for n in 0..10_000_000 {
+        let n = g.int(n);
+        g.add(x, n);
+    }
+    assert_eq!((g.len(), g.cut_short()), (MOST_NODES, Some(Cut::Size)));
+    // What is in it can still be asked for, and everything else is answered at once.
+    assert_eq!(g.symbols(&[x]).len(), 1);
+    assert_eq!(g.time_derivative(x, None), g.int(0));
+}
+
+#[test]
+fn a_graph_whose_time_is_used_up_takes_in_nothing_more() {
+    let mut g = Graph::until(Deadline::after(Some(Duration::ZERO)));
+    let x = g.symbol("x");
+    let x = g.sym(x);
+    (0..10_000).for_each(|n| {
+        let n = g.int(n);
+        g.add(x, n);
+    });
+    assert_eq!(g.cut_short(), Some(Cut::Time));
+    assert!(g.len() < 5000, "the clock is looked at while the graph grows: {}", g.len());
+    assert_eq!(Graph::until(Deadline::after(Some(Duration::from_secs(3600)))).cut_short(), None);
+    assert_eq!(Graph::until(Deadline::after(None)).cut_short(), None);
 }

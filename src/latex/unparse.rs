@@ -127,7 +127,7 @@ fn plain(node: &Node, out: &mut String) {
         }
         Kind::Annotated { body, note, over } => annotated(body, note.as_deref(), *over, out),
         Kind::Factorial(count, body) => {
-            write(body, Level::Base, out);
+            marked_base(body, out);
             out.extend(std::iter::repeat_n('!', usize::from(*count)));
         }
         Kind::At { body, at } => evaluated(body, at, out),
@@ -152,17 +152,24 @@ fn function(name: &str, out: &mut String) {
 }
 
 fn scripts(base: &Node, primes: u8, sub: Option<&Node>, sup: Option<&Node>, out: &mut String) {
-    match &base.kind {
-        // A condition belongs to the group it stands at; braces keep the group whole.
-        Kind::Group { open: Delim::None, close: Delim::Bar, .. } => braced(base, out),
-        _ => write(base, Level::Base, out),
-    }
+    marked_base(base, out);
     out.extend(std::iter::repeat_n('\'', usize::from(primes)));
     for (mark, script) in [('_', sub), ('^', sup)] {
         if let Some(script) = script {
             out.push(mark);
             braced(script, out);
         }
+    }
+}
+
+/// What a script, a prime or an exclamation mark is put to.
+fn marked_base(base: &Node, out: &mut String) {
+    match &base.kind {
+        // A condition belongs to the group it stands at; braces keep the group whole.
+        Kind::Group { open: Delim::None, close: Delim::Bar, .. } => braced(base, out),
+        // Bare words would separate statements, and leave the mark to the one after them.
+        Kind::Text(_) => braced(base, out),
+        _ => write(base, Level::Base, out),
     }
 }
 
@@ -273,6 +280,10 @@ fn matrix(env: MatrixEnv, rows: &[Vec<Node>], out: &mut String) {
     for (i, row) in rows.iter().enumerate() {
         out.push_str(if i > 0 { " \\\\ " } else { " " });
         joined(row, Level::List, " & ", out);
+    }
+    // A blank last row would be taken for the end of the row before.
+    if matches!(rows.last().map(Vec::as_slice), Some([Node { kind: Kind::Empty, .. }])) {
+        out.push_str(" \\\\");
     }
     out.push_str(&format!(" \\end{{{name}}}"));
 }

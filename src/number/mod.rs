@@ -6,6 +6,7 @@
 //! | [`Lanes`] | 53 | many states at once |
 //! | [`Df64`] | 104 | the default verdict |
 //! | `Mpfr` (feature `rug`) | any | what needs more |
+//! | `Interval` (feature `rug`) | any | what is to be proved |
 //! | [`Tracked`] over a [`Real`] | its own | a value with a bound of its rounding error |
 //! | [`Dual`], [`Jet`] over any | its own | a derivative; a Taylor series |
 //!
@@ -24,6 +25,10 @@ pub mod elliptic;
 mod f61;
 mod float;
 mod func;
+#[cfg(feature = "rug")]
+mod interval;
+#[cfg(all(test, feature = "rug"))]
+mod interval_tests;
 mod jet;
 mod lanes;
 #[cfg(feature = "rug")]
@@ -36,6 +41,8 @@ pub use dual::Dual;
 pub use elliptic::Elliptic;
 pub use f61::F61;
 pub use func::Func;
+#[cfg(feature = "rug")]
+pub use interval::Interval;
 pub use jet::{Jet, JetContext};
 pub use lanes::{LANES, Lanes};
 #[cfg(feature = "rug")]

@@ -29,12 +29,12 @@ fn is_negative_zero(x: &Float) -> bool {
     x.is_zero() && x.is_sign_negative()
 }
 
-fn unsigned_zero(x: &Float) -> Float {
+pub(super) fn unsigned_zero(x: &Float) -> Float {
     if x.is_zero() { Float::new(x.prec()) } else { x.clone() }
 }
 
 /// A precision that MPFR accepts.
-fn precision(bits: &u32) -> u32 {
+pub(super) fn precision(bits: &u32) -> u32 {
     (*bits).clamp(rug::float::prec_min().max(2), rug::float::prec_max())
 }
 

@@ -80,6 +80,11 @@ impl<N: Real> Tracked<N> {
         if self.error == 0.0 { 0.0 } else { self.error * f64::exp2(-f64::from(bits(&self.value).min(900))) * UP }
     }
 
+    /// Whether it is zero and has no error.
+    fn is_zero(&self) -> bool {
+        self.error == 0.0 && self.value.log2_abs() == f64::NEG_INFINITY
+    }
+
     /// The least and the largest that the exact value's magnitude can be.
     fn range(&self) -> (f64, f64) {
         let radius = self.radius();
@@ -204,17 +209,29 @@ impl<N: Real> Number for Tracked<N> {
     }
     fn set_add(&mut self, a: &Self, b: &Self) {
         self.value.set_add(&a.value, &b.value);
+        if a.is_zero() && b.is_zero() {
+            self.error = 0.0;
+            return;
+        }
         let (ea, eb) = self.errors(a, b);
         self.close(ea + eb, N::rounding(Operation::Add));
     }
     fn set_sub(&mut self, a: &Self, b: &Self) {
         self.value.set_sub(&a.value, &b.value);
+        if a.is_zero() && b.is_zero() {
+            self.error = 0.0;
+            return;
+        }
         let (ea, eb) = self.errors(a, b);
         self.close(ea + eb, N::rounding(Operation::Add));
     }
     fn set_mul(&mut self, a: &Self, b: &Self) {
         self.value.set_mul(&a.value, &b.value);
         let (ea, eb) = self.errors(a, b);
+        if a.is_zero() && b.value.is_finite() || b.is_zero() && a.value.is_finite() {
+            self.error = 0.0;
+            return;
+        }
         // |ab - âb̂| ≤ |â| eb + (|b̂| + eb) ea
         let propagated = moved(magnitude(&a.value), eb) + moved(b.range().1, ea);
         self.close(propagated, N::rounding(Operation::Mul));

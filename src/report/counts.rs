@@ -31,6 +31,8 @@ pub struct Counts {
     pub statement: usize,
     /// `fails`
     pub fails: usize,
+    /// Those of them that are proved to fail, at a state that is known exactly.
+    pub certified: usize,
     /// `undecided`
     pub undecided: usize,
     /// `unreadable`
@@ -50,6 +52,8 @@ impl Counts {
             *counts.slot(judgement.verdict) += 1;
             counts.exact +=
                 usize::from(judgement.verdict == Verdict::Holds && judgement.strength == Some(Strength::Exact));
+            counts.certified +=
+                usize::from(judgement.verdict == Verdict::Fails && judgement.strength == Some(Strength::Certified));
             counts.errata += usize::from(judgement.is_erratum());
             counts.unexpected += usize::from(!judgement.as_expected);
         }

@@ -3,8 +3,8 @@
 use super::{Chart, Run, charts};
 use crate::check::exact::Exact;
 use crate::check::verdict::{
-    Assignment, Correction, Counterexample, DimensionFinding, DimensionStatus, DocumentReport, InferredDimension,
-    Judgement, LinkJudgement, Order, Strength, TermDimension, Verdict,
+    Assignment, Certificate, Correction, Counterexample, DimensionFinding, DimensionStatus, DocumentReport, Enclosure,
+    ExactValue, InferredDimension, Judgement, LinkJudgement, LostBits, Order, Strength, TermDimension, Verdict,
 };
 
 /// A link with a verdict and nothing else.
@@ -23,6 +23,7 @@ pub(super) fn link(latex: &str, verdict: Verdict) -> LinkJudgement {
         problem: None,
         exact: None,
         inexact: None,
+        lost_bits: None,
     }
 }
 
@@ -65,8 +66,26 @@ pub(super) fn judgement(label: &str, kind: &str, link: LinkJudgement) -> Judgeme
         as_expected: true,
         sensitivity: None,
         suggestions: Vec::new(),
+        unfinished: None,
+        lost_bits: None,
         micros: 118,
         problem: None,
+    }
+}
+
+fn certificate() -> Certificate {
+    let exact = |symbol: &str, value: &str, idle| ExactValue { symbol: symbol.into(), value: value.into(), idle };
+    let enclosure = |name: Option<&str>, low: &str, high: &str| Enclosure {
+        name: name.map(str::to_owned),
+        low: low.into(),
+        high: high.into(),
+        idle: false,
+    };
+    Certificate {
+        bits: Some(64),
+        state: vec![exact(r"\theta", "7/10", false), exact("I_0", "5/4", false), exact(r"\psi", "1", true)],
+        solved: vec![enclosure(Some(r"\dot{\varphi}"), "-0.500001", "-0.5")],
+        differences: vec![enclosure(Some(r"\xi component"), "-0.177892", "-0.177891")],
     }
 }
 
@@ -78,6 +97,8 @@ fn erratum() -> Judgement {
         lhs: "-0.5".into(),
         rhs: "-0.32210884361884557".into(),
         component: Some(r"\xi component".into()),
+        certificate: Some(certificate()),
+        uncertified: None,
     };
     let failing = LinkJudgement {
         strength: Some(Strength::Certified),
@@ -140,11 +161,13 @@ fn chain() -> Judgement {
         states: 64,
         failing_states: 63,
         reason: Some("the sides differ by a sign at every state but one".into()),
+        lost_bits: Some(LostBits { mean: 0.9, worst: 3.1 }),
         ..link(r"b = -c", Verdict::Fails)
     };
     let links = vec![agreeing("a = b"), differing];
     Judgement {
         latex: r"\begin{aligned} a &= b \\ &= -c \end{aligned}".into(),
+        lost_bits: Some(LostBits { mean: 0.9, worst: 3.1 }),
         verdict: Verdict::Fails,
         as_expected: false,
         section: r"2 `code` and $\omega'$".into(),

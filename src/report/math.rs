@@ -2,9 +2,9 @@
 
 use super::mathml::canonical;
 use super::text::escape;
+use crate::breakdown::caught;
 use katex::types::{OutputFormat, Settings};
 use katex::{KatexContext, render_to_string};
-use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// The nesting and the length past which a source is shown as it is: katex descends by recursion.
 pub(super) const DEEPEST: usize = 60;
@@ -67,7 +67,7 @@ impl Renderer {
         // Made anew for each formula, so that a `\gdef` in one does not reach the next.
         let settings = Settings::builder().display_mode(display).output(OutputFormat::Mathml).max_size(20.0).build();
         // A panic within katex costs one formula its typography, not the run its report.
-        let rendered = catch_unwind(AssertUnwindSafe(|| render_to_string(&self.context, latex, &settings)));
+        let rendered = caught(|| render_to_string(&self.context, latex, &settings));
         canonical(&rendered.ok()?.ok()?)
     }
 }

@@ -9,7 +9,9 @@ use super::math::MARK;
 /// The `math` element of katex's output, without the copy of the source that katex adds, and with marks made classes.
 /// Attributes are in alphabetical order: katex keeps them in a hash table, whose order differs from run to run.
 ///
-/// `None` if there is no `math` element. Katex escapes `<` and `>` in texts and attribute values, so each of them left
+/// Only the elements and attributes of [`ELEMENTS`] and [`ATTRIBUTES`] pass: nothing that runs, links or loads.
+///
+/// `None` if there is no `math` element, or one that is not known. Katex escapes `<` and `>` in texts and attribute values, so each of them left
 /// begins or ends a tag.
 pub(super) fn canonical(markup: &str) -> Option<String> {
     let begin = markup.find("<math")?;
@@ -24,6 +26,7 @@ pub(super) fn canonical(markup: &str) -> Option<String> {
         match tag.name {
             "annotation" => rest = &rest[rest.find("</annotation>")? + "</annotation>".len()..],
             "semantics" | "/semantics" => {}
+            name if !ELEMENTS.contains(&name.trim_start_matches('/')) => return None,
             _ => writer.tag(&tag, rest),
         }
         if let Some(variant) = tag.attribute("mathvariant") {
@@ -34,6 +37,69 @@ pub(super) fn canonical(markup: &str) -> Option<String> {
     }
     writer.html.push_str(rest);
     Some(writer.html)
+}
+
+/// The elements that pass.
+const ELEMENTS: [&str; 23] = [
+    "math",
+    "menclose",
+    "mfrac",
+    "mi",
+    "mn",
+    "mo",
+    "mover",
+    "mpadded",
+    "mphantom",
+    "mroot",
+    "mrow",
+    "mspace",
+    "msqrt",
+    "mstyle",
+    "msub",
+    "msubsup",
+    "msup",
+    "mtable",
+    "mtd",
+    "mtext",
+    "mtr",
+    "munder",
+    "munderover",
+];
+
+/// The attributes that pass, where they are words, numbers, lengths or colours.
+const ATTRIBUTES: [&str; 26] = [
+    "accent",
+    "accentunder",
+    "columnlines",
+    "depth",
+    "display",
+    "displaystyle",
+    "fence",
+    "form",
+    "height",
+    "linethickness",
+    "lspace",
+    "mathbackground",
+    "mathcolor",
+    "mathsize",
+    "mathvariant",
+    "maxsize",
+    "minsize",
+    "movablelimits",
+    "notation",
+    "rowlines",
+    "rspace",
+    "scriptlevel",
+    "separator",
+    "stretchy",
+    "voffset",
+    "width",
+];
+
+/// Whether an attribute passes.
+fn passes(key: &str, value: &str) -> bool {
+    let plain = |c: char| c.is_ascii_alphanumeric() || matches!(c, '#' | '.' | '%' | '+' | '-' | ' ');
+    ATTRIBUTES.contains(&key) && value.chars().all(plain)
 }
 
 #[derive(Default)]
@@ -151,11 +217,7 @@ impl<'a> Tag<'a> {
             class = Some("changed");
         }
         html.extend(class.map(|class| format!(" class=\"{class}\"")));
-        // What has become a class, or means nothing to a browser.
-        let gone = |key: &str, value: &str| {
-            matches!(key, "xmlns" | "columnalign" | "columnspacing" | "rowspacing" | "class") || value == MARK
-        };
-        let kept = self.attributes.iter().filter(|(key, value)| !gone(key, value));
+        let kept = self.attributes.iter().filter(|(key, value)| *value != MARK && passes(key, value));
         html.extend(kept.map(|(key, value)| format!(" {key}=\"{value}\"")));
         html + if self.empty { "/>" } else { ">" }
     }
@@ -201,9 +263,22 @@ mod tests {
 
     #[test]
     fn attributes_are_sorted_and_sources_dropped() {
-        let markup = r#"<span><math xmlns="x" display="block"><semantics><mo b="1" a="2">+</mo><annotation encoding="y">a&lt;b</annotation></semantics></math></span>"#;
-        assert_eq!(canonical(markup).unwrap(), r#"<math display="block"><mo a="2" b="1">+</mo></math>"#);
+        let markup = r#"<span><math xmlns="x" display="block"><semantics><mo stretchy="false" fence="true">+</mo><annotation encoding="y">a&lt;b</annotation></semantics></math></span>"#;
+        assert_eq!(
+            canonical(markup).unwrap(),
+            r#"<math display="block"><mo fence="true" stretchy="false">+</mo></math>"#
+        );
         assert_eq!(canonical("no mathematics"), None);
+    }
+
+    #[test]
+    fn what_runs_links_or_loads_does_not_pass() {
+        let markup =
+            r#"<math href="javascript:x" onclick="y" style="z"><mi mathcolor="url(x)" width="1em">a</mi></math>"#;
+        assert_eq!(canonical(markup).unwrap(), r#"<math><mi width="1em">a</mi></math>"#);
+        for element in ["script", "a", "mglyph", "maction", "annotation-xml", "img"] {
+            assert_eq!(canonical(&format!("<math><{element}>x</{element}></math>")), None, "{element}");
+        }
     }
 
     #[test]

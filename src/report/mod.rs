@@ -13,9 +13,11 @@ mod svg;
 pub mod terminal;
 mod text;
 mod view;
+mod view_certificate;
 mod view_charts;
 mod view_diagnosis;
 mod view_dimensions;
+mod write;
 
 pub use charts::Chart;
 pub use counts::Counts;
@@ -95,30 +97,14 @@ pub enum ReportError {
 
 /// Writes `report.html` and `report.json` into the directory `out`, which is created if need be.
 ///
-/// Both are made in full before either is written, and each is written beside its place and then renamed: nobody ever
-/// reads half a report.
+/// See [`write`](mod@write) for what this promises.
 ///
 /// # Errors
 /// [`ReportError`]
 pub fn write(run: &Run, out: &Path) -> Result<Written, ReportError> {
     let options = Options::default();
     let (html, json) = (html::render(run, options)?, json::render(run, options)?);
-    std::fs::create_dir_all(out).map_err(|source| ReportError::Directory { path: out.to_owned(), source })?;
-    let written = Written { html: out.join("report.html"), json: out.join("report.json") };
-    replace(&written.html, &html)?;
-    replace(&written.json, &json)?;
-    Ok(written)
-}
-
-/// Writes a file beside its place and renames it there.
-fn replace(path: &Path, contents: &str) -> Result<(), ReportError> {
-    // The process's number keeps two runs into one directory from writing the same file.
-    let beside = path.with_extension(format!("{}.tmp", std::process::id()));
-    std::fs::write(&beside, contents).and_then(|()| std::fs::rename(&beside, path)).map_err(|source| {
-        // What could not be finished is not left lying about; that it cannot be removed either adds nothing to the error.
-        let _ = std::fs::remove_file(&beside);
-        ReportError::Write { path: path.to_owned(), source }
-    })
+    write::pair(out, &html, &json)
 }
 
 #[cfg(test)]

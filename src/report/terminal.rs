@@ -39,6 +39,9 @@ fn summarize(text: &mut String, document: &DocumentReport, paint: Paint) -> std:
     if counts.holds > 0 {
         writeln!(text, "  exact: {} of {} that hold", counts.exact, counts.holds)?;
     }
+    if counts.certified > 0 {
+        writeln!(text, "  certified: {} of {} that fail", counts.certified, counts.fails)?;
+    }
     if let Some(dimensions) = dimensions(document) {
         writeln!(text, "  dimensions: {dimensions}")?;
     }
@@ -78,8 +81,8 @@ fn is_shown(j: &Judgement) -> bool {
 }
 
 fn line(text: &mut String, document: &DocumentReport, j: &Judgement, paint: Paint) -> std::fmt::Result {
-    let mark = paint.verdict(j.verdict, &format!("{} ({})", symbol(j.verdict), j.label));
-    write!(text, "  {mark} {}:{} {}", document.path, j.line, word(j.verdict))?;
+    let mark = paint.verdict(j.verdict, &format!("{} ({})", symbol(j.verdict), one_line(&j.label)));
+    write!(text, "  {mark} {}:{} {}", one_line(&document.path), j.line, word(j.verdict))?;
     if j.expect == Some(j.verdict) && !j.as_expected {
         write!(text, ", as expected, but its correction {}", j.correction.as_ref().map_or("", |c| phrase(c.verdict)))?;
     } else if let (false, Some(expected)) = (j.as_expected, j.expect) {
@@ -96,6 +99,9 @@ fn line(text: &mut String, document: &DocumentReport, j: &Judgement, paint: Pain
         writeln!(text, "      should read  {}  ({verdict})", one_line(&correction.latex))?;
     } else if let Some(c) = &j.counterexample {
         writeln!(text, "      for example  {}  against  {}", c.lhs, c.rhs)?;
+    }
+    if let Some(certificate) = j.counterexample.as_ref().and_then(|c| c.certificate.as_ref()) {
+        writeln!(text, "      certified: {}", one_line(&certificate.to_string()))?;
     }
     for finding in &j.dimension_findings {
         writeln!(text, "      dimensions: {}", one_line(&finding.message))?;

@@ -5,10 +5,10 @@
 
 use super::math::Renderer;
 use super::text::{duration, language, number, strength, symbol, word};
-use super::{Counts, Options, Run, diff, text, view_charts, view_diagnosis, view_dimensions};
+use super::{Counts, Options, Run, diff, text, view_certificate, view_charts, view_diagnosis, view_dimensions};
 use crate::check::verdict::{Correction, Counterexample, DocumentReport, Judgement, LinkJudgement, Order, Verdict};
 use serde::Serialize;
-use std::collections::{HashMap, HashSet};
+use std::collections::HashMap;
 
 #[derive(Serialize)]
 pub(super) struct Page {
@@ -117,6 +117,8 @@ struct CounterexampleView {
     state: Vec<Value>,
     lhs: String,
     rhs: String,
+    certificate: Option<view_certificate::View>,
+    uncertified: Option<String>,
 }
 
 #[derive(Clone, Serialize)]
@@ -151,7 +153,7 @@ struct CorrectionView {
 
 /// The page of a run.
 pub(super) fn page(run: &Run, options: Options) -> Page {
-    let mut builder = Builder { renderer: Renderer::new(), options, taken: HashSet::new() };
+    let mut builder = Builder { renderer: Renderer::new(), options, taken: HashMap::new() };
     let documents: Vec<_> = run.documents.iter().map(|d| builder.document(d)).collect();
     let all = || documents.iter().flat_map(|d| &d.sections).flat_map(|s| &s.equations);
     let judged = || run.documents.iter().flat_map(|d| &d.equations);
@@ -177,8 +179,8 @@ pub(super) fn page(run: &Run, options: Options) -> Page {
 struct Builder {
     renderer: Renderer,
     options: Options,
-    /// The anchors in use.
-    taken: HashSet<String>,
+    /// The anchors in use, each with the number of those made from it.
+    taken: HashMap<String, usize>,
 }
 
 impl Builder {
@@ -243,6 +245,7 @@ impl Builder {
         let mut facts = facts(j.strength, j.bits, only.and_then(|l| l.residual), j.states);
         facts.extend(only.and_then(failing_states));
         facts.extend(exactness(j));
+        facts.extend(j.lost_bits.map(text::lost_bits));
         let reason = j.reason.as_ref().or_else(|| only.and_then(|l| l.reason.as_ref()));
         Equation {
             anchor: anchor.to_owned(),
@@ -315,6 +318,8 @@ impl Builder {
             state: c.state.iter().map(value).collect(),
             lhs: c.lhs.clone(),
             rhs: c.rhs.clone(),
+            certificate: c.certificate.as_ref().map(|c| view_certificate::view(c, &self.renderer)),
+            uncertified: c.uncertified.clone(),
         }
     }
 
@@ -350,12 +355,13 @@ impl Builder {
         let sign = |c: char| if c.is_alphanumeric() || matches!(c, '-' | '.' | '_') { c } else { '-' };
         let base: String = name.chars().map(sign).collect();
         let mut anchor = base.clone();
-        for n in 2.. {
-            if self.taken.insert(anchor.clone()) {
-                break;
-            }
+        while self.taken.contains_key(&anchor) {
+            // From where the last one of this name was found: many of one name take no longer each.
+            let n = self.taken.entry(base.clone()).or_insert(1);
+            *n += 1;
             anchor = format!("{base}-{n}");
         }
+        self.taken.insert(anchor.clone(), 1);
         anchor
     }
 }

@@ -1,13 +1,14 @@
 //! Derivatives, differentials, bases that rotate, and the values that indices run through.
 
 use crate::expr::{Expr, Graph};
-use crate::latex::ast::{Font, Kind, Node, Rel, Span};
+use crate::latex::ast::{BigOp, Font, Kind, Node, Rel, Span};
 
 use super::elaborate::{Elaborator, Typed};
 use super::error::{Error, Result};
 use super::juxtaposition::Item;
 use super::name::spelling;
-use super::scope::Basis;
+use super::scope::{Basis, EntryKind};
+use super::statement::{MOST_ASSIGNMENTS, assignments, too_many};
 use super::units::Dimension;
 use super::value::{self, Matrix, Value};
 use super::world::{Facts, Quantity};
@@ -219,11 +220,9 @@ impl Elaborator<'_> {
         {
             let name = spelling(letter);
             let (from, to) = (self.integer(&link.rhs)?, self.integer(last)?);
-            if to.saturating_sub(from) > 10_000 {
-                return Err(Error::unsupported(
-                    format!("a sum of {} terms is too long", to.saturating_sub(from)),
-                    span,
-                ));
+            let count = i128::from(to) - i128::from(from) + 1;
+            if count > MOST_ASSIGNMENTS {
+                return Err(too_many("a sum", count, span));
             }
             return Ok((from..=to).map(|v| vec![(name.clone(), v)]).collect());
         }
@@ -235,18 +234,7 @@ impl Elaborator<'_> {
             return Err(Error::undeclared("this sum names no declared index", span)
                 .with_help("declare the index under [symbols], as in 'i' = { index = [1, 3] }"));
         }
-        let mut assignments = vec![Vec::new()];
-        for letter in letters {
-            let Some((from, to)) = self.scope.index(&letter) else { continue };
-            assignments = assignments
-                .into_iter()
-                .flat_map(|a: Vec<(String, i64)>| (from..=to).map(move |v| (a.clone(), v)))
-                .map(|(mut a, v)| {
-                    a.push((letter.clone(), v));
-                    a
-                })
-                .collect();
-        }
+        let assignments = assignments(self.scope, &letters, span)?;
         match sub {
             Some(Node { kind: Kind::Chain { first: Some(first), links }, .. }) => {
                 let kept = assignments.into_iter().map(|a| Ok((self.condition(first, links, &a)?, a)));
@@ -285,7 +273,7 @@ impl Elaborator<'_> {
         Ok(true)
     }
 
-    fn integer(&mut self, node: &Node) -> Result<i64> {
+    pub(super) fn integer(&mut self, node: &Node) -> Result<i64> {
         let typed = self.value(node)?;
         let e = self.scalar(&typed, &node.span)?;
         match self.world.graph.as_rational(e) {
@@ -307,6 +295,16 @@ impl Elaborator<'_> {
         found
     }
 
+    /// What stands in the scripts of a name are letters, not quantities.
+    fn collect_letters(&self, name: &Node, bound: &[String], found: &mut Vec<String>) {
+        letters(name, &mut |s| {
+            let open = self.scope.index(s).is_some() && self.index_value(s).is_none();
+            if open && !bound.contains(s) && !found.contains(s) {
+                found.push(s.clone());
+            }
+        });
+    }
+
     fn collect_indices(&self, node: &Node, bound: &mut Vec<String>, found: &mut Vec<String>) {
         if let Kind::Symbol(s) = &node.kind
             && self.scope.index(s).is_some()
@@ -316,11 +314,40 @@ impl Elaborator<'_> {
         {
             found.push(s.clone());
         }
+        if let Some(entry) = self.scope.get(&super::scope::pattern_of(self.scope, node)) {
+            let open = |letter: &&String| self.index_value(letter).is_none() && !bound.contains(letter);
+            for letter in entry.hidden.iter().filter(open) {
+                if !found.contains(letter) {
+                    found.push(letter.clone());
+                }
+            }
+            self.collect_letters(node, bound, found);
+            if let EntryKind::Same(other) = &entry.kind {
+                self.collect_indices(other, bound, found);
+            }
+            return;
+        }
+        if let Kind::Scripts { base, primes, sub: Some(sub), sup } = &node.kind
+            && !matches!(base.kind, Kind::BigOp(_))
+        {
+            match sup {
+                Some(sup) => {
+                    let (base, sub) = (base.clone(), Some(sub.clone()));
+                    let name = Kind::Scripts { base, primes: *primes, sub, sup: None };
+                    self.collect_indices(&Node::new(name, node.span.clone()), bound, found);
+                    return self.collect_indices(sup, bound, found);
+                }
+                None => {
+                    self.collect_indices(base, bound, found);
+                    return self.collect_letters(sub, bound, found);
+                }
+            }
+        }
         let depth = bound.len();
         for child in children(node) {
             let mut limits = Vec::new();
             if let Kind::Scripts { base, sub, .. } = &child.kind
-                && matches!(base.kind, Kind::BigOp(_))
+                && is_sum(base)
             {
                 // What follows the operator within this node is bound by it.
                 if let Some(sub) = sub {
@@ -329,7 +356,7 @@ impl Elaborator<'_> {
                 bound.extend(limits);
                 continue;
             }
-            if matches!(child.kind, Kind::BigOp(_)) {
+            if is_sum(child) {
                 // A sum without limits runs over all indices behind it.
                 break;
             }
@@ -337,6 +364,19 @@ impl Elaborator<'_> {
         }
         bound.truncate(depth);
     }
+}
+
+/// Whether an operator runs through indices.
+fn is_sum(node: &Node) -> bool {
+    matches!(node.kind, Kind::BigOp(BigOp::Sum | BigOp::Product))
+}
+
+/// Visits the letters of a name, those in its scripts included.
+fn letters(node: &Node, visit: &mut dyn FnMut(&String)) {
+    if let Kind::Symbol(s) = &node.kind {
+        visit(s);
+    }
+    node.children().into_iter().for_each(|child| letters(child, visit));
 }
 
 /// The nodes directly below a node, products laid flat so that what follows a big operator stands behind it.

@@ -6,9 +6,16 @@ use crate::latex::to_latex;
 
 use super::error::{Error, Result};
 use super::name::spelling;
+use super::quaternion;
 use super::scope::{Entry, EntryKind, Scope, pattern};
 use super::value::{self, Matrix, Value};
 use super::world::{Facts, Joint, Quantity, Role, World};
+
+/// The most that is told of how a value was read, in bytes: otherwise a sum of n terms takes n² to read.
+const LONGEST_TEXT: usize = 4000;
+
+/// How many names may stand for each other one after another.
+const MOST_ALIASES: usize = 20;
 
 /// A value with the way it was read, every operation in brackets.
 #[derive(Clone, Debug)]
@@ -21,7 +28,12 @@ pub struct Typed {
 
 impl Typed {
     pub(super) fn new(value: Value, text: impl Into<String>) -> Self {
-        Typed { value, text: text.into() }
+        let mut text = text.into();
+        if text.len() > LONGEST_TEXT {
+            text.truncate(text.floor_char_boundary(LONGEST_TEXT));
+            text.push('…');
+        }
+        Typed { value, text }
     }
 }
 
@@ -35,16 +47,19 @@ pub struct Elaborator<'w> {
     pub(super) indices: Vec<(String, i64)>,
     /// Whether ± means +, for a formula with branches.
     pub(super) upper: bool,
+    /// How many names stand for names here.
+    aliases: usize,
 }
 
 impl<'w> Elaborator<'w> {
     /// An elaborator with the given indices fixed, on the upper or lower branch of ±.
     pub fn new(world: &'w mut World, scope: &'w Scope, indices: Vec<(String, i64)>, upper: bool) -> Self {
-        Elaborator { world, scope, indices, upper }
+        Elaborator { world, scope, indices, upper, aliases: 0 }
     }
 
     /// The value of an expression.
     pub fn value(&mut self, node: &Node) -> Result<Typed> {
+        self.world.step(&node.span)?;
         match &node.kind {
             Kind::Number(text) => self.number(text, &node.span),
             Kind::Symbol(_) | Kind::Styled(..) | Kind::Accent(..) | Kind::Scripts { .. } | Kind::Dots(..) => {
@@ -57,7 +72,7 @@ impl<'w> Elaborator<'w> {
             Kind::List(items) => self.tuple(items),
             Kind::Matrix { env, rows } => self.matrix(*env, rows, &node.span),
             Kind::Annotated { body, .. } => self.value(body),
-            Kind::Function(name) => Err(Error::unsupported(format!("\\{name} has no argument here"), &node.span)),
+            Kind::Function(_) => self.product(node),
             Kind::BigOp(_) => Err(Error::unsupported("this operator has nothing to act on", &node.span)),
             Kind::Empty => Err(Error::unsupported("an expression is missing here", &node.span)),
             Kind::Text(text) => Err(Error::unsupported(format!("words within a formula: {text}"), &node.span)
@@ -65,7 +80,7 @@ impl<'w> Elaborator<'w> {
             Kind::Ellipsis => Err(Error::unsupported("an ellipsis stands for terms that are not printed", &node.span)
                 .with_help("give the formula a `reading` in which the terms are written out or summed")),
             Kind::Factorial(..) => Err(Error::unsupported("factorials are not evaluated yet", &node.span)),
-            Kind::At { .. } => Err(Error::unsupported("a value at a condition is not evaluated yet", &node.span)),
+            Kind::At { body, at } => self.evaluated_at(body, at, &node.span),
             Kind::Chain { .. } | Kind::Rows(_) | Kind::Marked(..) => {
                 Err(Error::unsupported("a relation stands where a value is expected", &node.span))
             }
@@ -92,12 +107,15 @@ impl<'w> Elaborator<'w> {
                 Sign::MinusPlus => self.upper,
             };
             let sign = if minus { "-" } else { "+" };
-            let graph = &mut self.world.graph;
             sum = Some(match sum {
-                None if minus => Typed::new(value::negate(graph, &next.value), format!("-{}", next.text)),
+                None if minus => {
+                    Typed::new(value::negate(&mut self.world.graph, &next.value), format!("-{}", next.text))
+                }
                 None => next,
                 Some(acc) => {
                     let span = term.sign_span.clone().map_or(term.node.span.clone(), |s| s.start..term.node.span.end);
+                    let (acc, next) = self.alike(acc, next);
+                    let graph = &mut self.world.graph;
                     let value = add_or_zero(graph, &acc.value, &next.value, minus, &span)?;
                     Typed::new(value, format!("{} {sign} {}", acc.text, next.text))
                 }
@@ -107,6 +125,16 @@ impl<'w> Elaborator<'w> {
         let parts = || terms.iter().map(|t| to_latex(&t.node)).zip(values).collect();
         self.world.join(|| Joint { role: Role::Sum, parts: parts() });
         Ok(if terms.len() > 1 { Typed::new(sum.value, format!("({})", sum.text)) } else { sum })
+    }
+
+    /// Terms that are to be added: among quaternions a number may be added to a vector.
+    fn alike(&mut self, a: Typed, b: Typed) -> (Typed, Typed) {
+        if self.scope.quaternions
+            && let Some((x, y)) = quaternion::met(&mut self.world.graph, &a.value, &b.value)
+        {
+            return (Typed::new(x, a.text), Typed::new(y, b.text));
+        }
+        (a, b)
     }
 
     fn tuple(&mut self, items: &[Node]) -> Result<Typed> {
@@ -149,7 +177,9 @@ impl<'w> Elaborator<'w> {
                 let square = value::dot3(graph, v, v);
                 graph.sqrt(square)
             }
-            Value::Matrix(m) if m.rows == m.cols && m.rows <= 6 => value::determinant(graph, m),
+            Value::Matrix(m) if m.rows == m.cols && m.rows <= value::LARGEST_DETERMINANT => {
+                value::determinant(graph, m)
+            }
             other => return Err(Error::shape(format!("{} has no magnitude", other.shape()), span)),
         };
         Ok(Typed::new(Value::Scalar(e), format!("|{}|", inner.text)))
@@ -178,8 +208,8 @@ impl<'w> Elaborator<'w> {
         let matrix = Matrix { rows: rows.len(), cols, data };
         let text = format!("[{}x{cols}: {}]", rows.len(), text.join(", "));
         if env == MatrixEnv::Determinant {
-            if matrix.rows != cols || cols > 6 {
-                return Err(Error::shape("a determinant needs as many rows as columns, at most 6", span));
+            if matrix.rows != cols || cols > value::LARGEST_DETERMINANT {
+                return Err(Error::shape(value::DETERMINANTS, span));
             }
             let det = value::determinant(&mut self.world.graph, &matrix);
             return Ok(Typed::new(Value::Scalar(det), format!("det{text}")));
@@ -244,6 +274,16 @@ impl<'w> Elaborator<'w> {
     ) -> Result<Typed> {
         // Dots belong to the whole name: \dot{r}_G is the derivative of r_G.
         if let Kind::Dots(n, inner) = &base.kind {
+            let whole = Kind::Scripts {
+                base: inner.clone(),
+                primes,
+                sub: sub.cloned().map(Box::new),
+                sup: sup.cloned().map(Box::new),
+            };
+            let whole = Node::new(whole, node.span.clone());
+            if sup.is_some() && self.is_declared(&whole) {
+                return self.atom(&Node::new(Kind::Dots(*n, Box::new(whole)), node.span.clone()));
+            }
             let kind = match (primes, sub) {
                 (0, None) => inner.kind.clone(),
                 _ => Kind::Scripts { base: inner.clone(), primes, sub: sub.cloned().map(Box::new), sup: None },
@@ -267,6 +307,12 @@ impl<'w> Elaborator<'w> {
             let whole = self.value(base)?;
             return self.component(&whole, &basis, axis, &node.span);
         }
+        if let (0, Some(sub), Kind::Group { .. }) = (primes, sub, &base.kind)
+            && super::motion::is_start(sub)
+        {
+            let inner = self.value(base)?;
+            return Ok(self.started(&inner));
+        }
         Err(self.not_declared(node))
     }
 
@@ -282,7 +328,7 @@ impl<'w> Elaborator<'w> {
             return None;
         }
         if let Some(entry) = self.scope.get(&exact) {
-            return Some((entry, Vec::new()));
+            return Some((entry, entry.hidden.iter().filter_map(|letter| self.index_value(letter)).collect()));
         }
         let values = std::cell::RefCell::new(Vec::new());
         let is_index = |letter: &str| self.index_value(letter).inspect(|v| values.borrow_mut().push(*v)).is_some();
@@ -305,6 +351,13 @@ impl<'w> Elaborator<'w> {
         let Some((entry, indices)) = self.entry(node) else { return Ok(None) };
         let entry = entry.clone();
         let name = instance(&entry.pattern, &indices);
+        let name = match entry.hidden.iter().find(|letter| self.index_value(letter).is_none()) {
+            Some(letter) => {
+                return Err(Error::undeclared(format!("the index {letter} of {name} has no value here"), &node.span));
+            }
+            None if entry.hidden.is_empty() => name,
+            None => format!("{name}_{{{}}}", indices.iter().map(i64::to_string).collect::<Vec<_>>().join(",")),
+        };
         let value = match &entry.kind {
             EntryKind::Scalar => Value::Scalar(self.scalar_symbol(&entry, &name, name.clone())),
             EntryKind::Vector => Value::Vector(
@@ -321,9 +374,15 @@ impl<'w> Elaborator<'w> {
                 Some(v) => Value::Scalar(self.world.graph.int(v)),
                 None => return Err(Error::undeclared(format!("the index {name} has no value here"), &node.span)),
             },
-            EntryKind::Same(other) => return self.value(other).map(Some),
+            EntryKind::Same(other) => {
+                let depth = self.indices.len();
+                self.indices.extend(entry.letters.iter().cloned().zip(indices));
+                let value = self.alias(&name, other, &node.span);
+                self.indices.truncate(depth);
+                return value.map(Some);
+            }
             EntryKind::Component { of, basis, axis } => {
-                let whole = self.value(of)?;
+                let whole = self.alias(&name, of, &node.span)?;
                 let component = self.component(&whole, basis, *axis, &node.span)?;
                 return Ok(Some(Typed::new(component.value, name)));
             }
@@ -334,6 +393,19 @@ impl<'w> Elaborator<'w> {
             }
         };
         Ok(Some(Typed::new(value, shown_name(node))))
+    }
+
+    /// What a name stands for, which may be a name that stands for something.
+    fn alias(&mut self, name: &str, other: &Node, span: &Span) -> Result<Typed> {
+        if self.aliases >= MOST_ALIASES {
+            let message =
+                format!("{name} stands for a name that stands for a name, and so on for {MOST_ALIASES} times");
+            return Err(Error::unsupported(message, span).with_help("do the declarations with `same` go in a circle?"));
+        }
+        self.aliases += 1;
+        let value = self.value(other);
+        self.aliases -= 1;
+        value
     }
 
     fn scalar_symbol(&mut self, entry: &Entry, name: &str, tex: String) -> Expr {
@@ -367,6 +439,12 @@ impl<'w> Elaborator<'w> {
         let graph = &mut self.world.graph;
         let integer = graph.as_rational(n).filter(|(_, d)| *d == 1).and_then(|(n, _)| i32::try_from(n).ok());
         let value = match (&base.value, integer) {
+            (Value::Vector(_) | Value::Quaternion(..), _) if self.scope.quaternions => {
+                match quaternion::parts(graph, &base.value) {
+                    Some(parts) => quaternion::power(graph, &parts, n, span)?,
+                    None => return Err(Error::shape("no quaternion stands here", span)),
+                }
+            }
             (Value::Scalar(x), _) => Value::Scalar(graph.pow(*x, n)),
             (Value::Vector(v), Some(2)) => Value::Scalar(value::dot3(graph, v, v)),
             (Value::Matrix(m), Some(-1)) => Value::Matrix(value::inverse(graph, m, span)?),

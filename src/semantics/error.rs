@@ -11,6 +11,8 @@ pub enum ErrorKind {
     Undeclared,
     /// Kenzan does not know the construction.
     Unsupported,
+    /// It is too large, or takes too long.
+    Limit,
 }
 
 /// An obstacle with its place in the parsed LaTeX.
@@ -40,6 +42,11 @@ impl Error {
     /// A construction that is not known.
     pub fn unsupported(message: impl Into<String>, span: &Span) -> Self {
         Error { kind: ErrorKind::Unsupported, message: message.into(), span: span.clone(), help: None }
+    }
+
+    /// Something that is too large, or takes too long.
+    pub fn limit(message: impl Into<String>, span: &Span) -> Self {
+        Error { kind: ErrorKind::Limit, message: message.into(), span: span.clone(), help: None }
     }
 
     /// The same error with advice.

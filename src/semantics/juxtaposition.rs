@@ -12,13 +12,15 @@
 //!
 //! Visible operators: cross products first, then dots and slashes from left to right.
 
-use crate::expr::Func;
+use crate::expr::{Expr, Func};
 use crate::latex::ast::{BigOp, Kind, Node, ProductOp, Span};
 use crate::latex::to_latex;
 
 use super::calculus::Derivative;
 use super::elaborate::{Elaborator, Typed};
+use super::elliptic::is_name;
 use super::error::{Error, Result};
+use super::quaternion;
 use super::value::{self, Value};
 use super::world::{Joint, Role};
 
@@ -65,7 +67,7 @@ impl Elaborator<'_> {
     pub(super) fn product(&mut self, node: &Node) -> Result<Typed> {
         let mut items = Vec::new();
         flatten(node, &mut items);
-        items.retain(|item| !matches!(item, Item::Factor(n) if matches!(n.kind, Kind::Text(_))));
+        items.retain(|item| !matches!(item, Item::Factor(n) if matches!(n.kind, Kind::Text(_)) && !is_name(n)));
         self.items(&items)
     }
 
@@ -102,6 +104,14 @@ impl Elaborator<'_> {
 
     fn juxtaposed(&mut self, a: Typed, b: Typed, span: &Span) -> Result<Typed> {
         let (left, right) = self.aligned(&a.value, &b.value, span)?;
+        if self.scope.quaternions
+            && !matches!((&left, &right), (Value::Scalar(_), _) | (_, Value::Scalar(_)))
+            && let Some(x) = quaternion::parts(&mut self.world.graph, &left)
+            && let Some(y) = quaternion::parts(&mut self.world.graph, &right)
+        {
+            let value = quaternion::product(&mut self.world.graph, &x, &y);
+            return Ok(Typed::new(value, format!("({} {})", a.text, b.text)));
+        }
         let value = value::multiply(&mut self.world.graph, &left, &right, span)?;
         Ok(Typed::new(value, format!("({} {})", a.text, b.text)))
     }
@@ -150,6 +160,14 @@ impl Elaborator<'_> {
         let Some(Item::Factor(node)) = items.first() else {
             return Err(Error::unsupported("a factor is missing here", &span_of(items)));
         };
+        if self.scope.quaternions
+            && let Some(found) = self.taken_apart(items)?
+        {
+            return Ok(found);
+        }
+        if let Some(found) = self.elliptic(items)? {
+            return Ok(found);
+        }
         let (head, sup) = head_and_power(node);
         match &head.kind {
             Kind::Function(name) => return self.function(name, sup, node, &items[1..]).map(|(t, n)| (t, n + 1)),
@@ -161,10 +179,13 @@ impl Elaborator<'_> {
             if let Some(found) = self.spelt_together(node, next)? {
                 return Ok((found, 2));
             }
+            if let Some(found) = self.choices(node, next)? {
+                return Ok((found, 2));
+            }
             if self.is_differential_sign(node) {
                 return self.differential(next).map(|t| (t, 2));
             }
-            if is_group_of_t(next) && self.depends_on_t(node) {
+            if is_group_of_t(next) && self.depends_on_t(node) || self.is_argument_of(next, node) {
                 return self.value(node).map(|t| (t, 2));
             }
         }
@@ -183,6 +204,13 @@ impl Elaborator<'_> {
         self.atom(&pair).map(Some)
     }
 
+    /// Whether a group names the arguments that a symbol is declared to be a function of, so that the symbol is meant.
+    fn is_argument_of(&self, group: &Node, node: &Node) -> bool {
+        let Some((entry, _)) = self.entry(node) else { return false };
+        !entry.arguments.is_empty()
+            && matches!(&group.kind, Kind::Group { body, .. } if super::name::spelling(body) == entry.arguments.join(","))
+    }
+
     fn depends_on_t(&self, node: &Node) -> bool {
         self.entry(node).is_some_and(|(entry, _)| entry.of_t)
     }
@@ -196,7 +224,13 @@ impl Elaborator<'_> {
         if let Some(derivative) = self.derivative(num, den) {
             return self.apply_derivative(derivative, node, rest);
         }
-        let (n, d) = (self.value(num)?, self.value(den)?);
+        let (n, mut d) = (self.value(num)?, self.value(den)?);
+        if self.scope.quaternions && matches!(d.value, Value::Vector(_) | Value::Quaternion(..)) {
+            let graph = &mut self.world.graph;
+            let parts = quaternion::parts(graph, &d.value);
+            d.value = parts.map_or(d.value, |parts| quaternion::inverse(graph, &parts));
+            return self.juxtaposed(n, d, &node.span).map(|t| (t, 0));
+        }
         let value = value::divide(&mut self.world.graph, &n.value, &d.value, &den.span)?;
         let quotient = Typed::new(value, format!("({} / {})", n.text, d.text));
         self.with_power(quotient, power, &node.span).map(|t| (t, 0))
@@ -223,10 +257,12 @@ impl Elaborator<'_> {
             return Err(Error::unsupported(format!("\\{name} has no argument here"), &node.span));
         }
         let argument = self.items(&rest[..used])?;
-        self.world.join(|| Joint {
-            role: Role::Argument(name.to_owned()),
-            parts: vec![(latex_of(&rest[..used]), argument.value.clone())],
-        });
+        if !matches!(name, "max" | "min") {
+            self.world.join(|| Joint {
+                role: Role::Argument(name.to_owned()),
+                parts: vec![(latex_of(&rest[..used]), argument.value.clone())],
+            });
+        }
         let inverse = matches!(sup.map(|s| &s.kind), Some(Kind::Sum(t)) if t.len() == 1 && is_minus_one(&t[0]));
         let name = if inverse { format!("arc{name}") } else { name.to_owned() };
         let result = self.call(&name, argument, &node.span)?;
@@ -273,8 +309,15 @@ impl Elaborator<'_> {
 
     fn call(&mut self, name: &str, argument: Typed, span: &Span) -> Result<Typed> {
         if let (Value::Matrix(m), "det") = (&argument.value, name) {
+            if m.rows != m.cols || m.rows > value::LARGEST_DETERMINANT {
+                let of = argument.value.shape();
+                return Err(Error::shape(format!("the determinant of {of}: {}", value::DETERMINANTS), span));
+            }
             let det = value::determinant(&mut self.world.graph, m);
             return Ok(Typed::new(Value::Scalar(det), format!("det({})", argument.text)));
+        }
+        if let (Value::Tuple(items), "max" | "min") = (&argument.value, name) {
+            return self.extreme(items, name == "max", span);
         }
         // What Kenzan does not know must not look like a mistake of the author's: the maximum of a tuple, exp of a matrix.
         if !FUNCTIONS.contains(&name) || name == "exp" && matches!(argument.value, Value::Matrix(_)) {
@@ -310,6 +353,26 @@ impl Elaborator<'_> {
         Ok(Typed::new(Value::Scalar(value), format!("{name}({})", argument.text)))
     }
 
+    /// The largest or least of some numbers: of two, half the sum of them and of their distance.
+    fn extreme(&mut self, items: &[Value], largest: bool, span: &Span) -> Result<Typed> {
+        let mut extreme: Option<Expr> = None;
+        for item in items {
+            let e = self.scalar(&Typed::new(item.clone(), ""), span)?;
+            let graph = &mut self.world.graph;
+            extreme = Some(match extreme {
+                None => e,
+                Some(acc) => {
+                    let (sum, difference, two) = (graph.add(acc, e), graph.sub(acc, e), graph.int(2));
+                    let distance = graph.call(Func::Abs, difference);
+                    let twice = if largest { graph.add(sum, distance) } else { graph.sub(sum, distance) };
+                    graph.div(twice, two)
+                }
+            });
+        }
+        let e = extreme.ok_or_else(|| Error::unsupported("the largest of nothing", span))?;
+        Ok(Typed::new(Value::Scalar(e), if largest { "max" } else { "min" }))
+    }
+
     fn big_operator(&mut self, op: BigOp, node: &Node, rest: &[Item]) -> Result<Typed> {
         let (sub, sup) = match &node.kind {
             Kind::Scripts { sub, sup, .. } => (sub.as_deref(), sup.as_deref()),
@@ -318,8 +381,10 @@ impl Elaborator<'_> {
         if rest.is_empty() {
             return Err(Error::unsupported("this operator has nothing to act on", &node.span));
         }
-        if !matches!(op, BigOp::Sum | BigOp::Product) {
-            return Err(Error::unsupported("integrals are not evaluated yet", &node.span));
+        match op {
+            BigOp::Sum | BigOp::Product => {}
+            BigOp::Integral => return self.integral(sub, sup, rest, &node.span),
+            _ => return Err(Error::unsupported("integrals over areas are not evaluated yet", &node.span)),
         }
         let ranges = self.index_values(sub, sup, rest, &node.span)?;
         let mut total: Option<Typed> = None;
@@ -365,7 +430,7 @@ fn latex_of(items: &[Item]) -> String {
 }
 
 /// A factor without its power: `\sin^2` is (sin, 2). Subscripted names are heads of their own.
-fn head_and_power(node: &Node) -> (&Node, Option<&Node>) {
+pub(super) fn head_and_power(node: &Node) -> (&Node, Option<&Node>) {
     match &node.kind {
         Kind::Scripts { base, sub: None, sup, primes: 0 } => (base, sup.as_deref()),
         Kind::Scripts { base, .. } if matches!(base.kind, Kind::BigOp(_)) => (base, None),
@@ -377,7 +442,7 @@ fn is_minus_one(term: &crate::latex::ast::Term) -> bool {
     term.sign == crate::latex::ast::Sign::Minus && matches!(&term.node.kind, Kind::Number(n) if n == "1")
 }
 
-fn is_bracket(node: &Node) -> bool {
+pub(super) fn is_bracket(node: &Node) -> bool {
     matches!(head_and_power(node).0.kind, Kind::Group { .. })
 }
 

@@ -10,24 +10,32 @@
 //! first is the author's and the second is the annotator's.
 
 mod calculus;
+mod counting;
 mod elaborate;
+mod elliptic;
 mod error;
+mod geometric;
 mod juxtaposition;
+mod motion;
 mod name;
+mod quaternion;
 mod scope;
 mod statement;
 mod terms;
+#[cfg(test)]
+mod testing;
 pub mod units;
 mod value;
 mod world;
 
 pub use elaborate::{Elaborator, Typed};
 pub use error::{Error, ErrorKind};
+pub use geometric::is_geometric;
 pub use name::spelling;
 pub use scope::{Basis, Entry, EntryKind, Scope, pattern_of};
 pub use statement::{
-    Clause, Instance, Side, Statement, TypedLink, begins_with_relation, has_branches, mentions, relation_latex,
-    statement, understand,
+    Clause, Instance, Side, Statement, TypedLink, begins_with_relation, every_value, has_branches, mentions,
+    relation_latex, statement, understand,
 };
 pub use terms::{PrintedTerm, printed_terms};
 pub use value::{Matrix, Value};

@@ -47,6 +47,9 @@ fn joined(nodes: &[Node], separator: &str, leaf: &dyn Fn(&Node) -> Option<String
             text.push_str(separator);
         }
         let next = spelling_with(node, leaf);
+        if next.is_empty() {
+            return next; // Something that is no part of a name: the whole is none.
+        }
         let macro_at_end = text.rsplit('\\').next().is_some_and(|tail| {
             tail.len() < text.len() && !tail.is_empty() && tail.bytes().all(|b| b.is_ascii_alphabetic())
         });

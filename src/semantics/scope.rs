@@ -1,9 +1,9 @@
 //! Which symbols are declared where an equation stands.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
-use crate::document::{BasisDeclaration, Declarations, Problem, Spanned, SymbolDeclaration};
+use crate::document::{Arguments, BasisDeclaration, Declarations, Problem, Spanned, SymbolDeclaration};
 use crate::latex;
 use crate::latex::ast::{Kind, Node};
 
@@ -72,6 +72,12 @@ pub struct Entry {
     pub declared: usize,
     /// Whether it takes integers only.
     pub integer: bool,
+    /// The indices it has one value for each of that are not printed: the j of \\sum m r^2.
+    pub hidden: Vec<String>,
+    /// The indices that its name prints, in their order.
+    pub letters: Vec<String>,
+    /// The spellings of the arguments that may be printed behind it, in brackets.
+    pub arguments: Vec<String>,
 }
 
 impl Entry {
@@ -110,8 +116,12 @@ pub struct Scope {
     bases: Vec<Arc<Basis>>,
     /// Premises that hold throughout the section, in LaTeX with their place in the file.
     pub assume: Vec<Spanned<String>>,
+    /// Whether vectors side by side are multiplied as quaternions.
+    pub quaternions: bool,
     /// Whether the section is written in natural units, so that dimensions say nothing.
     pub natural_units: bool,
+    /// The modulus of elliptic functions that are printed without one.
+    pub modulus: Option<Node>,
 }
 
 impl Scope {
@@ -173,6 +183,9 @@ impl Scope {
         }
         self.assume.extend(block.assume.iter().cloned());
         self.natural_units = block.natural_units.unwrap_or(self.natural_units);
+        if let Some(modulus) = &block.modulus {
+            self.modulus = parse_name(modulus, &mut problems);
+        }
         problems
     }
 
@@ -208,10 +221,18 @@ impl Scope {
     pub fn declare_symbol(&mut self, d: &SymbolDeclaration, problems: &mut Vec<Problem>) {
         let each: Vec<String> =
             d.each.iter().filter_map(|i| parse_name(i, problems)).map(|node| spelling(&node)).collect();
+        let arguments = match &d.function {
+            Some(Arguments::Names(names)) => names.iter().filter_map(|n| parse_name(n, problems)).collect(),
+            _ => Vec::new(),
+        };
+        let arguments: Vec<String> = arguments.iter().map(spelling).collect();
         let dimension = d.unit.as_ref().and_then(|unit| parse_unit(unit, problems));
         for (position, name) in d.names.iter().enumerate() {
             let Some(node) = parse_name(name, problems) else { continue };
             let pattern = pattern(&node, &|letter| each.iter().any(|e| e == letter));
+            let printed = |letter: &String| self::pattern(&node, &|l| l == letter).contains('#');
+            let letters = each.iter().filter(|letter| printed(letter)).cloned().collect();
+            let hidden = each.iter().filter(|letter| !printed(letter)).cloned().collect();
             let Some(kind) = entry_kind(d, position, problems) else { continue };
             let entry = Entry {
                 pattern: pattern.clone(),
@@ -222,12 +243,45 @@ impl Scope {
                 dimension,
                 declared: name.span.start,
                 integer: d.integer,
+                hidden,
+                letters,
+                arguments: arguments.clone(),
             };
-            self.insert(pattern, entry);
+            self.insert(pattern.clone(), entry);
+            if self.is_circular(&pattern) {
+                let message = format!("{} is another notation of itself", name.value);
+                problems.push(Problem::error("kenzan::name", message, name.span.clone()));
+                self.entries.remove(&pattern);
+            }
         }
     }
 
+    /// The declared names in an expression; the letters within a name are none.
+    fn collect_names(&self, node: &Node, found: &mut HashSet<String>) {
+        let pattern = pattern_of(self, node);
+        if self.get(&pattern).is_some() {
+            found.insert(pattern);
+            return;
+        }
+        node.children().into_iter().for_each(|child| self.collect_names(child, found));
+    }
+
+    /// Whether what a name stands for leads back to it.
+    fn is_circular(&self, pattern: &str) -> bool {
+        let mut found = HashSet::new();
+        let mut queue = vec![pattern.to_owned()];
+        while let Some(name) = queue.pop() {
+            let Some(entry) = self.get(&name) else { continue };
+            let (EntryKind::Same(node) | EntryKind::Component { of: node, .. }) = &entry.kind else { continue };
+            let mut names = HashSet::new();
+            self.collect_names(node, &mut names);
+            queue.extend(names.into_iter().filter(|name| found.insert(name.clone())));
+        }
+        found.contains(pattern)
+    }
+
     fn insert(&mut self, pattern: String, entry: Entry) {
+        self.quaternions |= super::quaternion::is_operator(&entry);
         self.entries.insert(pattern, Arc::new(entry));
     }
 
@@ -253,6 +307,9 @@ impl Entry {
             dimension: None,
             declared: 0,
             integer: false,
+            hidden: Vec::new(),
+            letters: Vec::new(),
+            arguments: Vec::new(),
         }
     }
 }

@@ -1,14 +1,16 @@
 //! From a parsed equation to its links: what is said to equal what.
 
 use crate::expr::Expr;
-use crate::latex::ast::{Delim, Kind, Link, MatrixEnv, Node, Rel, Sign};
+use crate::latex::ast::{Delim, Kind, Link, MatrixEnv, Node, Rel, Sign, Span};
 use crate::latex::to_latex;
 
 use super::elaborate::Elaborator;
 use super::error::{Error, Result};
+use super::geometric::{as_equation, is_geometric};
 use super::juxtaposition::Item;
+use super::quaternion;
 use super::scope::Scope;
-use super::value::Value;
+use super::value::{Matrix, Value};
 use super::world::World;
 
 /// One side of a link.
@@ -89,6 +91,7 @@ impl Builder {
                 rows.iter().filter_map(|row| row.first()).try_for_each(|cell| self.add(cell))
             }
             Kind::Group { open: Delim::None | Delim::Brace, body, .. } if holds_relation(body) => self.add(body),
+            Kind::Group { open: Delim::Paren, body, .. } if holds_relation(body) => self.aside(body),
             Kind::Juxt(factors) if factors.iter().any(holds_relation) => {
                 factors.iter().filter(|f| holds_relation(f)).try_for_each(|f| self.add(f))
             }
@@ -101,6 +104,15 @@ impl Builder {
         }
     }
 
+    /// What is said in brackets: a statement of its own, or a last link, `f (= g)`. What follows does not continue it.
+    fn aside(&mut self, body: &Node) -> Result<()> {
+        let (last, head) = (self.out.last.clone(), self.out.head.clone());
+        self.add(body)?;
+        self.out.last = last.or(self.out.last.take());
+        self.out.head = head.or(self.out.head.take());
+        Ok(())
+    }
+
     fn begin(&mut self, node: &Node) {
         self.part += 1;
         self.continued = false;
@@ -110,6 +122,7 @@ impl Builder {
 
     fn chain(&mut self, first: Option<&Node>, links: &[Link], node: &Node) -> Result<()> {
         match first {
+            Some(first @ Node { kind: Kind::Annotated { .. }, .. }) if holds_relation(first) => self.add(first)?,
             Some(first) if !is_words(first) => self.begin(first),
             _ if self.out.last.is_none() => {
                 return Err(Error::unsupported("a relation with nothing before it", &node.span)
@@ -119,16 +132,18 @@ impl Builder {
             _ => {}
         }
         for (k, link) in links.iter().enumerate() {
-            let states_both =
-                links[..k].iter().any(|l| is_equality(l.rel)) || links[k + 1..].iter().any(|l| is_equality(l.rel));
-            if matches!(link.rel, Rel::Implies | Rel::Iff | Rel::ImpliedBy) && states_both {
-                self.begin(&link.rhs);
+            if separates(links, k) {
+                self.add(&link.rhs)?;
                 continue;
             }
             if matches!(link.rhs.kind, Kind::Empty) || is_words(&link.rhs) && !is_constant(&link.rhs) {
                 continue;
             }
-            self.link(link)?;
+            let (side, aside) = without_aside(&link.rhs);
+            self.link(&Link { rhs: side, ..link.clone() })?;
+            if let Some(body) = aside {
+                self.aside(body)?;
+            }
         }
         Ok(())
     }
@@ -164,13 +179,30 @@ pub fn mentions(scope: &Scope, node: &Node, found: &mut std::collections::HashSe
     if scope.get(&pattern).is_some() {
         found.insert(pattern);
     }
+    // In `I_1^2` stands `I_1`.
+    if let Kind::Scripts { base, primes, sub: Some(sub), sup: Some(_) } = &node.kind {
+        let kind = Kind::Scripts { base: base.clone(), primes: *primes, sub: Some(sub.clone()), sup: None };
+        mentions(scope, &Node::new(kind, node.span.clone()), found);
+    }
     for child in node.children() {
         mentions(scope, child, found);
     }
 }
 
-fn is_equality(rel: Rel) -> bool {
-    matches!(rel, Rel::Eq | Rel::Equiv)
+/// Whether a link of a chain does not relate its sides but the statements before and behind it. An arrow does where
+/// both are statements; where one of them is not, it leads to a limit or an image.
+fn separates(links: &[Link], k: usize) -> bool {
+    let states = |links: &[Link]| links.iter().any(|l| compares(l.rel));
+    let (before, behind) = (states(&links[..k]), states(&links[k + 1..]));
+    match links[k].rel {
+        Rel::Implies | Rel::Iff | Rel::ImpliedBy => before || behind,
+        Rel::To => before && behind,
+        _ => false,
+    }
+}
+
+fn compares(rel: Rel) -> bool {
+    matches!(rel, Rel::Eq | Rel::Equiv | Rel::Lt | Rel::Gt | Rel::Le | Rel::Ge) || is_geometric(rel)
 }
 
 /// Whether a node is or holds a relation, not counting those within ordinary brackets.
@@ -182,6 +214,19 @@ fn holds_relation(node: &Node) -> bool {
         Kind::Group { open: Delim::None | Delim::Brace, body, .. } => holds_relation(body),
         Kind::Matrix { env: MatrixEnv::Cases | MatrixEnv::Array, rows } => rows.iter().flatten().any(holds_relation),
         _ => false,
+    }
+}
+
+/// A side without the statement in brackets behind it, and that statement: `f (= g)`, `0 (a \parallel b)`.
+fn without_aside(side: &Node) -> (Node, Option<&Node>) {
+    let Kind::Juxt(factors) = &side.kind else { return (side.clone(), None) };
+    match factors.split_last() {
+        Some((Node { kind: Kind::Group { open: Delim::Paren, body, .. }, .. }, rest)) if holds_relation(body) => {
+            let kind = if rest.len() == 1 { rest[0].kind.clone() } else { Kind::Juxt(rest.to_vec()) };
+            let end = rest.last().map_or(side.span.end, |n| n.span.end);
+            (Node::new(kind, side.span.start..end), Some(body))
+        }
+        _ => (side.clone(), None),
     }
 }
 
@@ -258,6 +303,7 @@ impl TypedLink {
 fn component_name(value: &Value, k: usize) -> String {
     match value {
         Value::Vector(_) => format!("{} component (inertial)", ["x", "y", "z"][k % 3]),
+        Value::Quaternion(..) => ["scalar part", "x component", "y component", "z component"][k % 4].to_owned(),
         Value::Matrix(m) if m.cols == 1 => format!("row {}", k + 1),
         Value::Matrix(m) => format!("entry {},{}", k / m.cols + 1, k % m.cols + 1),
         _ => format!("part {}", k + 1),
@@ -270,11 +316,12 @@ pub fn understand(world: &mut World, scope: &Scope, clause: &Clause, upper: bool
     if let Side::Node(rhs) = &clause.rhs {
         sides.push(rhs);
     }
+    world.begin_steps();
     let items: Vec<Item> = sides.iter().map(|n| Item::Factor(n)).collect();
     let letters = Elaborator::new(world, scope, Vec::new(), upper).unbound_indices(&items);
-    let mut link =
-        TypedLink { rel: clause.rel, instances: Vec::new(), lhs_text: String::new(), rhs_text: String::new() };
-    for assignment in assignments(scope, &letters) {
+    let rel = if is_geometric(clause.rel) { Rel::Eq } else { clause.rel };
+    let mut link = TypedLink { rel, instances: Vec::new(), lhs_text: String::new(), rhs_text: String::new() };
+    for assignment in assignments(scope, &letters, &clause.lhs.span)? {
         let tag = assignment.iter().map(|(l, v)| format!("{l} = {v}")).collect::<Vec<_>>().join(", ");
         let mut elaborator = Elaborator::new(world, scope, assignment, upper);
         let lhs = elaborator.value(&clause.lhs)?;
@@ -285,17 +332,47 @@ pub fn understand(world: &mut World, scope: &Scope, clause: &Clause, upper: bool
                 (rhs.value, rhs.text)
             }
         };
-        let (left, right) = meet(&mut elaborator, lhs.value, rhs, clause)?;
+        let (mut left, mut right) = meet(&mut elaborator, lhs.value, rhs, clause)?;
+        if is_geometric(clause.rel) {
+            (left, right) = as_equation(elaborator.world, clause.rel, &left, &right, &clause.lhs.span)?;
+        }
         link.instances.push(Instance { tag: (!tag.is_empty()).then_some(tag), lhs: left, rhs: right });
         (link.lhs_text, link.rhs_text) = (lhs.text, rhs_text);
     }
+    world.check(&clause.lhs.span)?;
     Ok(link)
+}
+
+/// The value of an expression; where it has free indices, the tuple of its values for all of them.
+///
+/// # Errors
+/// Those of understanding it.
+pub fn every_value(world: &mut World, scope: &Scope, node: &Node) -> Result<Value> {
+    let letters = Elaborator::new(world, scope, Vec::new(), true).unbound_indices(&[Item::Factor(node)]);
+    if letters.is_empty() {
+        return Elaborator::new(world, scope, Vec::new(), true).value(node).map(|typed| typed.value);
+    }
+    let each = assignments(scope, &letters, &node.span)?.into_iter();
+    let values = each.map(|indices| Ok(Elaborator::new(world, scope, indices, true).value(node)?.value));
+    values.collect::<Result<_>>().map(Value::Tuple)
 }
 
 /// Brings the sides of a link to one shape: 0 stands for the null of any shape, a vector beside a column is meant by
 /// its components.
 fn meet(elaborator: &mut Elaborator, lhs: Value, rhs: Value, clause: &Clause) -> Result<(Value, Value)> {
     let zero = elaborator.world.graph.int(0);
+    let (lhs, rhs) = match (&lhs, &rhs) {
+        (Value::Tuple(_), Value::Vector(_) | Value::Matrix(_)) => (column_of(&lhs), rhs),
+        (Value::Vector(_) | Value::Matrix(_), Value::Tuple(_)) => {
+            let column = column_of(&rhs);
+            (lhs, column)
+        }
+        _ => (lhs, rhs),
+    };
+    let (lhs, rhs) = match quaternion::met(&mut elaborator.world.graph, &lhs, &rhs) {
+        Some(met) if elaborator.scope.quaternions && !is_null(elaborator, &lhs) && !is_null(elaborator, &rhs) => met,
+        _ => (lhs, rhs),
+    };
     let span = match &clause.rhs {
         Side::Node(n) => n.span.clone(),
         Side::Constant => clause.lhs.span.clone(),
@@ -334,11 +411,35 @@ fn meet(elaborator: &mut Elaborator, lhs: Value, rhs: Value, clause: &Clause) ->
     })
 }
 
+fn is_null(elaborator: &Elaborator, value: &Value) -> bool {
+    value.is_zero_scalar(&elaborator.world.graph)
+}
+
+/// The column that a tuple of numbers beside a vector stands for; anything else as it is.
+fn column_of(tuple: &Value) -> Value {
+    match tuple {
+        Value::Tuple(items) if items.iter().all(|item| matches!(item, Value::Scalar(_))) => {
+            Value::Matrix(Matrix { rows: items.len(), cols: 1, data: tuple.components() })
+        }
+        other => other.clone(),
+    }
+}
+
+/// The most terms of a sum, and instances of an equation: each costs time, and a handful shows what any number does.
+pub(super) const MOST_ASSIGNMENTS: i128 = 10_000;
+
 /// All assignments of values to indices; one empty assignment where there are none.
-pub(super) fn assignments(scope: &Scope, letters: &[String]) -> Vec<Vec<(String, i64)>> {
+///
+/// # Errors
+/// There are too many.
+pub(super) fn assignments(scope: &Scope, letters: &[String], span: &Span) -> Result<Vec<Vec<(String, i64)>>> {
     let mut all = vec![Vec::new()];
     for letter in letters {
         let Some((from, to)) = scope.index(letter) else { continue };
+        let count = (i128::from(to) - i128::from(from) + 1) * all.len() as i128;
+        if count > MOST_ASSIGNMENTS {
+            return Err(too_many(&format!("what runs over {}", letters.join(", ")), count, span));
+        }
         let mut next = Vec::new();
         for assignment in &all {
             for v in from..=to {
@@ -349,7 +450,13 @@ pub(super) fn assignments(scope: &Scope, letters: &[String]) -> Vec<Vec<(String,
         }
         all = next;
     }
-    all
+    Ok(all)
+}
+
+/// More assignments than are written out.
+pub(super) fn too_many(what: &str, count: i128, span: &Span) -> Error {
+    Error::limit(format!("{what} has {count} terms; at most {MOST_ASSIGNMENTS} are written out"), span)
+        .with_help("let the index run over a handful of values: 'i' = { index = [1, 3] }")
 }
 
 /// The LaTeX of a relation.

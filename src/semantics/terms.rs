@@ -38,7 +38,7 @@ pub fn printed_terms(world: &mut World, scope: &Scope, clause: &Clause) -> Resul
     }
     let items: Vec<Item> = sides.iter().map(|n| Item::Factor(n)).collect();
     let letters = Elaborator::new(world, scope, Vec::new(), true).unbound_indices(&items);
-    let indices = assignments(scope, &letters).into_iter().next().unwrap_or_default();
+    let indices = assignments(scope, &letters, &clause.lhs.span)?.into_iter().next().unwrap_or_default();
     let mut elaborator = Elaborator::new(world, scope, indices, true);
     let mut terms = Vec::new();
     for (k, side) in sides.iter().enumerate() {

@@ -30,6 +30,8 @@ pub enum Value {
     Scalar(Expr),
     /// A vector of space, by its components in the inertial frame.
     Vector([Expr; 3]),
+    /// A quaternion: a number and a vector.
+    Quaternion(Expr, [Expr; 3]),
     /// An array of numbers, a column of components among them.
     Matrix(Matrix),
     /// Several values.
@@ -44,6 +46,7 @@ impl Value {
         match self {
             Value::Scalar(_) => "a scalar".into(),
             Value::Vector(_) => "a vector".into(),
+            Value::Quaternion(..) => "a quaternion".into(),
             Value::Matrix(m) if m.cols == 1 => format!("a column of {}", m.rows),
             Value::Matrix(m) => format!("a {}x{} matrix", m.rows, m.cols),
             Value::Tuple(items) => format!("a tuple of {}", items.len()),
@@ -56,6 +59,7 @@ impl Value {
         match self {
             Value::Scalar(e) => vec![*e],
             Value::Vector(v) => v.to_vec(),
+            Value::Quaternion(s, v) => std::iter::once(*s).chain(*v).collect(),
             Value::Matrix(m) => m.data.clone(),
             Value::Tuple(items) => items.iter().flat_map(Value::components).collect(),
             Value::Constant => Vec::new(),
@@ -67,6 +71,7 @@ impl Value {
         match self {
             Value::Scalar(e) => Value::Scalar(f(*e)),
             Value::Vector(v) => Value::Vector(v.map(f)),
+            Value::Quaternion(s, v) => Value::Quaternion(f(*s), v.map(f)),
             Value::Matrix(m) => {
                 Value::Matrix(Matrix { rows: m.rows, cols: m.cols, data: m.data.iter().map(|e| f(*e)).collect() })
             }
@@ -87,6 +92,9 @@ pub fn add(graph: &mut Graph, a: &Value, b: &Value, minus: bool, span: &Span) ->
     match (a, b) {
         (Value::Scalar(x), Value::Scalar(y)) => Ok(Value::Scalar(op(*x, *y))),
         (Value::Vector(x), Value::Vector(y)) => Ok(Value::Vector([0, 1, 2].map(|k| op(x[k], y[k])))),
+        (Value::Quaternion(s, x), Value::Quaternion(t, y)) => {
+            Ok(Value::Quaternion(op(*s, *t), [0, 1, 2].map(|k| op(x[k], y[k]))))
+        }
         (Value::Matrix(x), Value::Matrix(y)) if (x.rows, x.cols) == (y.rows, y.cols) => {
             let data = x.data.iter().zip(&y.data).map(|(p, q)| op(*p, *q)).collect();
             Ok(Value::Matrix(Matrix { rows: x.rows, cols: x.cols, data }))
@@ -177,6 +185,12 @@ pub fn sum(graph: &mut Graph, terms: &[Expr]) -> Expr {
         Some((first, rest)) => rest.iter().fold(*first, |acc, t| graph.add(acc, *t)),
     }
 }
+
+/// The most rows of a determinant: an expansion of n rows has n! terms.
+pub const LARGEST_DETERMINANT: usize = 6;
+
+/// Which determinants there are, in words.
+pub const DETERMINANTS: &str = "a determinant needs as many rows as columns, at most 6";
 
 /// The determinant by expansion along the first row; for the small matrices of lecture notes.
 pub fn determinant(graph: &mut Graph, m: &Matrix) -> Expr {

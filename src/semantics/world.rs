@@ -2,10 +2,19 @@
 
 use std::collections::HashMap;
 
-use crate::expr::{Expr, Graph, SymId};
+use crate::expr::{Cut, Deadline, Expr, Graph, MOST_NODES, SymId};
+use crate::latex::ast::Span;
 
+use super::error::{Error, Result};
+use super::motion::History;
 use super::units::Dimension;
 use super::value::Value;
+
+/// The most values that are worked out to write a formula out: about a second.
+const MOST_STEPS: usize = 500_000;
+
+/// The most nodes where joints are taken down: dimensions are looked at for every equation, and decide none.
+const MOST_NODES_WITH_JOINTS: usize = MOST_NODES / 16;
 
 /// What is known of a symbol of the graph.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -67,6 +76,8 @@ pub struct World {
     facts: HashMap<SymId, Facts>,
     triads: HashMap<String, [[Expr; 3]; 3]>,
     joints: Option<Vec<Joint>>,
+    pub(super) history: History,
+    steps: usize,
 }
 
 impl World {
@@ -75,9 +86,44 @@ impl World {
         World::default()
     }
 
+    /// An empty world in which nothing is built any more when the time is used up.
+    pub fn until(deadline: Deadline) -> Self {
+        World { graph: Graph::until(deadline), ..World::default() }
+    }
+
+    /// Begins a formula: its steps are counted by themselves.
+    pub(super) fn begin_steps(&mut self) {
+        self.steps = 0;
+    }
+
+    /// Counts a step of writing a formula out.
+    ///
+    /// # Errors
+    /// The formula is too large, or the time is used up.
+    pub(super) fn step(&mut self, span: &Span) -> Result<()> {
+        self.steps += 1;
+        if self.steps > MOST_STEPS {
+            return Err(too_large("values", MOST_STEPS, span));
+        }
+        // The clock is slower than a step.
+        if self.steps.is_multiple_of(256) { self.check(span) } else { Ok(()) }
+    }
+
+    /// Whether all that was built could be taken in.
+    ///
+    /// # Errors
+    /// The formula is too large, or the time is used up.
+    pub fn check(&mut self, span: &Span) -> Result<()> {
+        match self.graph.cut_short() {
+            None => Ok(()),
+            Some(Cut::Size) => Err(too_large("operations", MOST_NODES, span)),
+            Some(Cut::Time) => Err(Error::limit(self.graph.deadline().used_up("writing the formula out"), span)),
+        }
+    }
+
     /// An empty world that takes down which values the formulas join.
     pub fn with_joints() -> Self {
-        World { joints: Some(Vec::new()), ..World::default() }
+        World { joints: Some(Vec::new()), graph: Graph::with_room(MOST_NODES_WITH_JOINTS), ..World::default() }
     }
 
     /// The joints taken down since they were last taken, inner ones before those around them.
@@ -143,4 +189,9 @@ impl World {
     pub(super) fn set_triad(&mut self, basis: &str, triad: [[Expr; 3]; 3]) {
         self.triads.insert(basis.to_owned(), triad);
     }
+}
+
+fn too_large(what: &str, most: usize, span: &Span) -> Error {
+    Error::limit(format!("written out, this has more than {most} {what}"), span)
+        .with_help("let its sums have fewer terms, and its indices fewer values, as in 'i' = { index = [1, 3] }")
 }

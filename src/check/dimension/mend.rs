@@ -70,7 +70,7 @@ impl Uses {
         factors.into_iter().take(NAMED).map(|f| f.latex).collect()
     }
 
-    fn candidates<'s>(&self, scope: &'s Scope, mentions: &HashSet<String>) -> Vec<Candidate<'s>> {
+    fn candidates<'s>(&self, scope: &'s Scope, mentions: &HashMap<String, usize>) -> Vec<Candidate<'s>> {
         let count = |name: &str, above: bool| self.0.get(&(name.to_owned(), above)).copied().unwrap_or(0);
         let named = scope.entries().filter(|e| e.kind == EntryKind::Scalar && !e.pattern.contains('#'));
         let used = named.filter_map(|e| {
@@ -83,7 +83,7 @@ impl Uses {
                 dimension,
                 above,
                 below,
-                here: mentions.contains(&e.pattern),
+                here: mentions.contains_key(&e.pattern),
             })
         });
         used.collect()

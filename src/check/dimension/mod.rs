@@ -32,7 +32,13 @@ pub struct Survey<'b> {
     quantities: Quantities,
     equations: Vec<Equation>,
     uses: Uses,
+    /// Whether more hold undeclared units than are solved for.
+    too_many: bool,
 }
+
+/// The most relations with undeclared units of which those units are inferred: each equation is checked by what all others
+/// say, so that the time grows with the third power.
+const MOST_STATED: usize = 600;
 
 /// What an equation says of dimensions.
 #[derive(Default)]
@@ -73,8 +79,10 @@ impl<'b> Survey<'b> {
     pub fn new(book: &'b Book) -> Self {
         let mut quantities = Quantities::default();
         let mut seen = HashSet::new();
-        let equations = (0..book.entries.len()).map(|k| equation(book, k, &mut seen, &mut quantities)).collect();
-        Survey { book, quantities, equations, uses: Uses::count(book) }
+        let equations: Vec<Equation> =
+            (0..book.entries.len()).map(|k| equation(book, k, &mut seen, &mut quantities)).collect();
+        let too_many = equations.iter().map(|e| e.premises.len() + e.stated().count()).sum::<usize>() > MOST_STATED;
+        Survey { book, quantities, equations, uses: Uses::count(book), too_many }
     }
 
     /// Enters the finding on an equation, and on its correction, into its judgement.
@@ -114,9 +122,12 @@ impl<'b> Survey<'b> {
     }
 
     /// What the equations and premises say of undeclared units, without one equation. What contradicts the earlier ones
-    /// is passed over: it shows where that equation is checked.
+    /// is passed over: it shows where that equation is checked. Of very many nothing is inferred.
     fn knowledge(&self, except: Option<usize>) -> System {
         let mut system = System::default();
+        if self.too_many {
+            return system;
+        }
         for (origin, equation) in self.equations.iter().enumerate() {
             let stated = equation.stated().filter(|_| except != Some(origin));
             for link in equation.premises.iter().chain(stated) {

@@ -151,15 +151,12 @@ fn the_bundled_notes() {
             assert!(link.exact.is_none_or(|e| e.log2_error <= -100), "({}) {}", j.label, link.latex);
         }
         if j.verdict == Verdict::Holds && j.strength != Some(Strength::Exact) {
-            if j.label == "61" {
-                assert_eq!(j.links[0].inexact, Some(Inexact::Trivial.to_string()));
-            }
             inexact.push(j.label);
         }
     }
-    // (61) and (14) hold trivially: the premises are met where nothing moves, or all particles stand in one place.
+    // (26) rests on the axes in which the products of inertia vanish, (69) and (70) are inequalities.
     inexact.retain(|label| label != "14"); // which of several solutions is met depends on the states
-    assert_eq!(inexact, ["26", "61", "69", "70"]);
+    assert_eq!(inexact, ["26", "69", "70"]);
 }
 
 /// What fails by its values is not exact in the field either.

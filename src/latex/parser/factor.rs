@@ -249,7 +249,8 @@ impl Parser<'_> {
         let name: String = if argument.len() == text.len() {
             text.trim_start_matches('\\').to_owned()
         } else {
-            argument.chars().filter(|c| !c.is_whitespace() && *c != '\\').collect()
+            // What else stands in the braces is spacing.
+            argument.chars().filter(|c| c.is_alphanumeric() || matches!(c, '*' | '-')).collect()
         };
         Node::new(Kind::Function(name), span)
     }

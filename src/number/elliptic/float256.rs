@@ -4,8 +4,8 @@
 //! Every operation truncates: its result is right to 2^-250 relatively. Exponents are so large that nothing of a
 //! practical size over- or underflows; what does, and what is undefined, becomes a number that is not finite.
 
-use super::arithmetic::Arithmetic;
 use super::super::Df64;
+use super::arithmetic::Arithmetic;
 
 const WORDS: usize = 4;
 /// The words of a fraction, the first the most significant.

@@ -34,9 +34,9 @@ mod slope;
 #[cfg(test)]
 mod tests;
 
-pub(super) use guard::{double, machine, double_radius, machine_radius};
 #[cfg(feature = "rug")]
 pub(super) use guard::{any_precision, any_radius};
+pub(super) use guard::{double, double_radius, machine, machine_radius};
 pub(super) use series::{dual, jet};
 pub use slope::{Rules, slope};
 

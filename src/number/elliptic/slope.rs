@@ -234,8 +234,7 @@ fn third_parts<R: Rules>(r: &mut R, of: &[usize], phi: Option<usize>) -> Third<R
         None => r.related(complete, &[k]),
         Some(phi) => r.related(incomplete, &[phi, k]),
     };
-    let (f, d, g) =
-        (both(CompleteK, IncompleteF), both(CompleteD, IncompleteD), both(CompleteG, IncompleteG));
+    let (f, d, g) = (both(CompleteK, IncompleteF), both(CompleteD, IncompleteD), both(CompleteG, IncompleteG));
     let pi = r.related(if phi.is_none() { CompletePi } else { IncompletePi }, of);
     Third { n: r.argument(n), k: r.argument(k), f, d, g, pi }
 }

@@ -9,6 +9,7 @@ use crate::number::conformance::Random;
 mod accuracy;
 mod definitions;
 mod oracles;
+mod speed;
 mod undefined;
 
 fn call<N: Number>(f: Elliptic, x: &[N]) -> N {

@@ -183,18 +183,27 @@ fn errors_of_arguments_are_bounded() {
             let mut most = f64::NEG_INFINITY;
             for _ in 0..4 {
                 let sign = |random: &mut Random| if random.below(2) == 0 { -0.999 } else { 0.999 };
-                let moved: Vec<Mpfr> = x.iter().zip(&sizes).map(|(x, e)| x.exact().plus(&(e * sign(&mut random)).exact())).collect();
+                let moved: Vec<Mpfr> =
+                    x.iter().zip(&sizes).map(|(x, e)| x.exact().plus(&(e * sign(&mut random)).exact())).collect();
                 let exact = call(f, &moved);
                 if exact.is_finite() {
                     let off = value.value().exact().minus(&exact).log2_abs();
-                    assert!(off <= value.error_log2(), "{f:?} {x:?} ± {sizes:?}: 2^{off} beyond 2^{}", value.error_log2());
+                    assert!(
+                        off <= value.error_log2(),
+                        "{f:?} {x:?} ± {sizes:?}: 2^{off} beyond 2^{}",
+                        value.error_log2()
+                    );
                     most = most.max(off);
                 }
             }
             wide.push(value.error_log2() - most);
         }
         wide.sort_by(f64::total_cmp);
-        println!("{f:?}: {bounded} of 300 bounded, too wide by {:.1} bits (half), {:.1} (95 %)", wide[wide.len() / 2], wide[wide.len() * 95 / 100]);
+        println!(
+            "{f:?}: {bounded} of 300 bounded, too wide by {:.1} bits (half), {:.1} (95 %)",
+            wide[wide.len() / 2],
+            wide[wide.len() * 95 / 100]
+        );
         assert!(bounded > 150, "{f:?}: {bounded}");
     }
 }

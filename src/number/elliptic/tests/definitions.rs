@@ -129,7 +129,8 @@ fn quarter_periods_by_mpfr() {
             let k = Mpfr(Float::with_val(bits, random.within(0.0, 1.0)));
             let wide = Float::with_val(bits + 100, &k.0);
             let k1 = Float::with_val(bits + 100, 1 - wide.square()).sqrt();
-            let expect = Float::with_val(bits + 100, rug::float::Constant::Pi) / (Float::with_val(bits + 100, 2) * Float::with_val(bits + 100, 1).agm(&k1));
+            let expect = Float::with_val(bits + 100, rug::float::Constant::Pi)
+                / (Float::with_val(bits + 100, 2) * Float::with_val(bits + 100, 1).agm(&k1));
             let off = Mpfr(Float::with_val(bits + 100, &call(CompleteK, &[k]).0 - &expect)).log2_abs();
             assert!(off < 3.0 - f64::from(bits), "{off} of {bits}");
         }

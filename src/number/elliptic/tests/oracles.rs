@@ -24,7 +24,13 @@ fn modulus(random: &mut Random) -> f64 {
 }
 
 /// Compares on 4000 arguments; `bound` is what the other implementation may be off, in units in the last place.
-fn compare(name: &str, f: Elliptic, bound: f64, arguments: impl Fn(&mut Random) -> Vec<f64>, other: impl Fn(&[f64]) -> f64) {
+fn compare(
+    name: &str,
+    f: Elliptic,
+    bound: f64,
+    arguments: impl Fn(&mut Random) -> Vec<f64>,
+    other: impl Fn(&[f64]) -> f64,
+) {
     let mut random = Random::new(41);
     let mut worst = Worst::default();
     for _ in 0..4000 {
