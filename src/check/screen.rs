@@ -251,6 +251,11 @@ fn operation(node: &Op, at: &dyn Fn(Expr) -> f64) -> f64 {
         Op::Sqrt(a) => at(a).sqrt(),
         Op::Call(f, a) => at(a).apply(f),
         Op::Atan2(a, b) => at(a).atan2(at(b)),
+        Op::Elliptic(f, x) => {
+            let (x, mut value) = (x.map(at), f64::NAN);
+            value.set_elliptic(f, &x.each_ref()[..f.arity()]);
+            value
+        }
     }
 }
 

@@ -121,6 +121,8 @@ pub struct Scope {
     pub quaternions: bool,
     /// Whether the section is written in natural units, so that dimensions say nothing.
     pub natural_units: bool,
+    /// The modulus of elliptic functions that are printed without one.
+    pub modulus: Option<Node>,
 }
 
 impl Scope {
@@ -182,6 +184,9 @@ impl Scope {
         }
         self.assume.extend(block.assume.iter().cloned());
         self.natural_units = block.natural_units.unwrap_or(self.natural_units);
+        if let Some(modulus) = &block.modulus {
+            self.modulus = parse_name(modulus, &mut problems);
+        }
         problems
     }
 
