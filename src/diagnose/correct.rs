@@ -12,10 +12,11 @@
 
 use std::collections::HashMap;
 
-use crate::check::verdict::{Judgement, LinkJudgement, Suggestion, Verdict};
+use crate::check::verdict::{Difference, Judgement, LinkJudgement, Suggestion, Verdict};
 use crate::check::{Book, Options, Outcome, Screen, Trial, Version};
 use crate::latex::ast::{Kind, Node};
 use crate::latex::{self, to_latex};
+use crate::report::marked_words;
 use crate::semantics::{Clause, Scope, Side};
 
 use super::change::{Change, at};
@@ -25,7 +26,7 @@ use super::likeness;
 use super::mutants::{EditKind, LONGEST, Reach, replaced_at};
 use super::names::Name;
 use super::near::Near;
-use super::shape::times;
+use super::shape::{is_null, times};
 use super::sides::Row;
 use super::tries;
 use super::wider::wider;
@@ -36,6 +37,8 @@ pub const MOST: usize = 3;
 const CONFIRMED: usize = 48;
 /// How many guesses that hold are kept, for a row of sides.
 const HOLDING: usize = 12;
+/// How many factors with an index are put in.
+const INDEXED: usize = 8;
 /// How many formulas are tried whose sides the solved states do not cover.
 const ELSEWHERE: usize = 120;
 
@@ -66,8 +69,12 @@ pub fn meant(book: &Book, index: usize, tree: &Node, links: &[LinkJudgement], op
     let near = Near::new(&printed, index, tree);
     let mut search = Search { book: &printed, index, tree, links, options, trial, near };
     let found = search.run();
-    let suggestion =
-        |(change, tree): (Change, Node)| Suggestion { latex: to_latex(&tree), edit: change.edits.join("; ") };
+    let before = to_latex(tree);
+    let suggestion = |(change, tree): (Change, Node)| {
+        let latex = to_latex(&tree);
+        let diff = marked_words(&before, &latex).map(|(printed, suggested)| Difference { printed, suggested });
+        Suggestion { latex, edit: change.edits.join("; "), printed: before.clone(), diff }
+    };
     found.into_iter().take(MOST).map(suggestion).collect()
 }
 
@@ -99,6 +106,10 @@ impl<'b> Search<'b> {
                 joined = tries::search(&mut self.trial, self.tree, &singles, self.links);
                 break;
             };
+            // What mends another row may mend this one, too.
+            if found.is_empty() {
+                continue;
+            }
             joined = joined.iter().flat_map(|a| found.iter().filter_map(|b| a.and(b))).collect();
             joined.sort_by_key(|c| c.cost);
             joined.truncate(4 * HOLDING);
@@ -113,8 +124,11 @@ impl<'b> Search<'b> {
 
     /// All single edits, those of a symbol also in every place at once.
     fn singles(&self) -> Vec<Change> {
-        let half: Vec<Node> = latex::parse("\\frac{1}{2}").into_iter().collect();
-        let mut walk = Walk::new(self.scope(), Reach { siblings: None, factors: &half });
+        // A factor with an index has no value of its own by which it could be found.
+        let half = latex::parse("\\frac{1}{2}").into_iter();
+        let indexed = self.near.indexed(self.scope()).take(INDEXED).cloned();
+        let factors: Vec<Node> = half.chain(indexed).collect();
+        let mut walk = Walk::new(self.scope(), Reach { siblings: None, factors: &factors });
         walk.visit(self.tree);
         let found = walk.found.into_iter().chain(wider(self.tree, self.scope(), &self.near));
         let changes: Vec<(EditKind, Change)> = found.map(|f| (f.edit.kind, self.change(f))).collect();
@@ -231,6 +245,9 @@ impl<'b> Search<'b> {
             if found.iter().chain(&idle).any(|(_, t)| self.trial.say_the_same(t, &tree)) {
                 continue;
             }
+            if self.trial.says_nothing(&made) {
+                continue;
+            }
             let group = if self.is_idle(&change) { &mut idle } else { &mut found };
             group.push((change, tree));
         }
@@ -248,12 +265,15 @@ impl<'b> Search<'b> {
             let Some(length) = (0..path.len()).rev().find(is_sum) else { return false };
             let term = &path[..=length];
             let Some(node) = at(&made, term) else { return false };
+            let beside_null = at(&made, &path[..length]).is_some_and(|parent| {
+                matches!(parent.kind, Kind::Chain { .. }) && parent.children().into_iter().any(is_null)
+            });
+            if beside_null {
+                return false;
+            }
             let seven = Node::new(Kind::Number("7".into()), node.span.clone());
             let scaled = replaced_at(&made, term, &times(&seven, node));
-            let beside_null = at(&made, &path[..length]).is_some_and(|parent| {
-                matches!(parent.kind, Kind::Chain { .. }) && parent.children().into_iter().any(super::shape::is_null)
-            });
-            !beside_null && self.trial.judge(&scaled) == Outcome::Holds
+            self.trial.judge(&scaled) == Outcome::Holds
         })
     }
 }

@@ -3,6 +3,7 @@
 //! ```toml
 //! assume = ['\theta > 0']          # LaTeX premises that hold in the section
 //! natural_units = true            # no constant has a dimension here: dimensions are not checked
+//! modulus = 'k'                   # of elliptic functions that are printed without one
 //! [symbols]
 //! 'I_0, I_1' = { unit = "kg m^2", range = [0.3, 3.0] }
 //! '\theta'   = { unit = "rad", of = "t", range = [0.2, 1.4] }
@@ -33,6 +34,8 @@ pub struct Declarations {
     pub assume: Vec<Spanned<String>>,
     /// Whether the section is written in natural units (c = 1, or g = l = 1), where dimensions say nothing.
     pub natural_units: Option<bool>,
+    /// The LaTeX of the modulus k of elliptic functions that are printed without one.
+    pub modulus: Option<Spanned<String>>,
 }
 
 /// What one or several symbols are.
@@ -100,7 +103,7 @@ pub struct BasisDeclaration {
     pub span: Span,
 }
 
-pub(super) const KEYS: [&str; 4] = ["symbols", "basis", "assume", "natural_units"];
+pub(super) const KEYS: [&str; 5] = ["symbols", "basis", "assume", "natural_units", "modulus"];
 
 const SYMBOL_KEYS: [&str; 13] = [
     "unit",
@@ -129,6 +132,7 @@ pub(super) fn declarations(table: &Table, span: Span, reader: &mut Reader) -> De
             "basis" => found.bases = bases(key, value, reader),
             "assume" => found.assume = reader.texts(key, value),
             "natural_units" => found.natural_units = Some(reader.bool(key, value)),
+            "modulus" => found.modulus = reader.text(key, value),
             _ => {}
         }
     }

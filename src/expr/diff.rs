@@ -55,6 +55,10 @@ impl Graph {
             let derivative = match node {
                 Node::Symbol(s) => rate(self, s),
                 _ if node.operands().all(|a| d.get(&a) == Some(&zero)) => zero,
+                Node::Elliptic(f, x) => {
+                    let rates = x.map(|a| d.get(&a).copied().unwrap_or(zero));
+                    self.elliptic_rate(f, &x, &rates)
+                }
                 _ => {
                     let mut of = node.operands().map(|a| d.get(&a).copied().unwrap_or(zero));
                     let (da, db) = (of.next().unwrap_or(zero), of.next().unwrap_or(zero));
@@ -69,7 +73,8 @@ impl Graph {
     /// The derivative of `e`, whose operands have the derivatives `da` and `db`, not both zero.
     fn chain_rule(&mut self, e: Expr, node: Node, da: Expr, db: Expr) -> Expr {
         match node {
-            Node::Rational(..) | Node::Pi | Node::E | Node::Symbol(_) => self.int(0),
+            // Elliptic functions have rules of their own.
+            Node::Rational(..) | Node::Pi | Node::E | Node::Symbol(_) | Node::Elliptic(..) => self.int(0),
             Node::Neg(_) => self.neg(da),
             Node::Add(..) => self.add(da, db),
             Node::Sub(..) => self.sub(da, db),

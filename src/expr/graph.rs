@@ -11,7 +11,7 @@
 
 use super::deadline::{Cut, Deadline};
 use super::ratio::{self, Ratio};
-use crate::number::Func;
+use crate::number::{Elliptic, Func};
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
 
@@ -87,22 +87,26 @@ pub enum Node {
     Call(Func, Expr),
     /// `Atan2(y, x)`: the angle of the point (x, y), in (-π, π].
     Atan2(Expr, Expr),
+    /// An elliptic function of its operands, the last of which fills the places that it does not have.
+    Elliptic(Elliptic, [Expr; 4]),
 }
 
 impl Node {
     /// The operands, in order.
     pub fn operands(&self) -> impl Iterator<Item = Expr> + use<> {
-        let (a, b) = match *self {
-            Node::Rational(..) | Node::Pi | Node::E | Node::Symbol(_) => (None, None),
-            Node::Neg(a) | Node::PowI(a, _) | Node::Sqrt(a) | Node::Call(_, a) => (Some(a), None),
+        let none = Expr(0);
+        let (count, operands) = match *self {
+            Node::Rational(..) | Node::Pi | Node::E | Node::Symbol(_) => (0, [none; 4]),
+            Node::Neg(a) | Node::PowI(a, _) | Node::Sqrt(a) | Node::Call(_, a) => (1, [a, none, none, none]),
             Node::Add(a, b)
             | Node::Sub(a, b)
             | Node::Mul(a, b)
             | Node::Div(a, b)
             | Node::Pow(a, b)
-            | Node::Atan2(a, b) => (Some(a), Some(b)),
+            | Node::Atan2(a, b) => (2, [a, b, none, none]),
+            Node::Elliptic(f, operands) => (f.arity(), operands),
         };
-        a.into_iter().chain(b)
+        operands.into_iter().take(count)
     }
 }
 
@@ -232,7 +236,7 @@ fn derivative_name(name: &str, order: u32) -> String {
 
 /// Constructors.
 impl Graph {
-    fn intern(&mut self, node: Node) -> Expr {
+    pub(super) fn intern(&mut self, node: Node) -> Expr {
         match self.interned.entry(node) {
             Entry::Occupied(known) => *known.get(),
             // Any expression will do: it is not to be used.

@@ -3,6 +3,7 @@
 mod deadline;
 pub mod diff;
 mod display;
+mod elliptic;
 pub mod field;
 pub mod graph;
 mod magnitude;
@@ -10,11 +11,13 @@ pub(crate) mod ratio;
 mod rewrite;
 pub mod tape;
 
-pub use crate::number::Func;
+pub use crate::number::{Elliptic, Func};
 pub use deadline::{Cut, Deadline};
 pub use graph::{Expr, Graph, MOST_NODES, Node, SymId, SymbolInfo};
 pub use tape::{Tape, Workspace};
 
+#[cfg(test)]
+mod elliptic_tests;
 #[cfg(test)]
 mod random_tests;
 #[cfg(test)]

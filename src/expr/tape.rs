@@ -4,7 +4,7 @@
 //! come first and are computed once for a context; then come the inputs, then the rest.
 
 use super::graph::{Expr, Graph, Node, SymId};
-use crate::number::{Dual, Func, Number};
+use crate::number::{Dual, Elliptic, Func, Number};
 use std::collections::HashMap;
 use std::sync::Arc;
 
@@ -27,6 +27,7 @@ enum Op {
     Sqrt(Slot),
     Call(Func, Slot),
     Atan2(Slot, Slot),
+    Elliptic(Elliptic, [Slot; 4]),
     /// Sine into the slot, cosine into the one after it.
     SinCos(Slot),
 }
@@ -167,6 +168,7 @@ fn run<N: Number>(slots: &mut [N], instruction: &Instruction) {
         Op::Sqrt(a) => to.set_sqrt(at(a)),
         Op::Call(f, a) => to.set_call(f, at(a)),
         Op::Atan2(a, b) => to.set_atan2(at(a), at(b)),
+        Op::Elliptic(f, x) => to.set_elliptic(f, &x.map(at)[..f.arity()]),
         Op::SinCos(a) => {
             if let Some(cos) = next.first_mut() {
                 N::set_sin_cos(to, cos, at(a));
@@ -278,6 +280,7 @@ impl<'g> Compiler<'g> {
             Node::Call(Func::Sin | Func::Cos, a) if self.both.contains_key(&a) => Op::SinCos(at(a)?),
             Node::Call(f, a) => Op::Call(f, at(a)?),
             Node::Atan2(y, x) => Op::Atan2(at(y)?, at(x)?),
+            Node::Elliptic(f, [a, b, c, d]) => Op::Elliptic(f, [at(a)?, at(b)?, at(c)?, at(d)?]),
         })
     }
 }

@@ -25,6 +25,7 @@ pub(crate) fn evaluate<N: Number>(g: &Graph, e: Expr, values: &HashMap<SymId, N>
             Node::Sqrt(a) => value.set_sqrt(at(a)),
             Node::Call(f, a) => value.set_call(f, at(a)),
             Node::Atan2(a, b) => value.set_atan2(at(a), at(b)),
+            Node::Elliptic(f, x) => value.set_elliptic(f, &x.map(at)[..f.arity()]),
         }
         known.insert(x, value);
     }

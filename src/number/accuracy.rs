@@ -7,7 +7,7 @@ use rug::Float;
 const BITS: u32 = 400;
 
 /// A number whose value MPFR can take over exactly.
-trait Exact: Real + Copy {
+pub(super) trait Exact: Real + Copy {
     fn exact(&self) -> Mpfr;
     /// A number near `x` that uses all its bits.
     fn full(x: f64, random: &mut Random) -> Self;

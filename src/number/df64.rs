@@ -5,7 +5,7 @@
 //! up to half of their digits (10¹⁶ units) within 10⁻³⁰ of their zeros; asin and acos lose them at ±1, acosh at 1; an
 //! integer power, which it takes by the logarithm, loses some 180 units; atan2 loses quotients that overflow.
 
-use super::{Df64, Func, Number, Operation, Real, decimal, float, reduction};
+use super::{Df64, Elliptic, Func, Number, Operation, Real, decimal, elliptic, float, reduction};
 use num_traits::FloatConst;
 
 const ONE: Df64 = Df64::ONE;
@@ -180,6 +180,9 @@ impl Number for Df64 {
     fn set_atan2(&mut self, y: &Self, x: &Self) {
         *self = atan2(*y, *x);
     }
+    fn set_elliptic(&mut self, f: Elliptic, x: &[&Self]) {
+        *self = elliptic::double(f, x);
+    }
     fn set_sin_cos(sin: &mut Self, cos: &mut Self, a: &Self) {
         (*sin, *cos) = sin_cos(*a);
     }
@@ -218,5 +221,8 @@ impl Real for Df64 {
     }
     fn reach() -> f64 {
         800.0
+    }
+    fn elliptic_radius(f: Elliptic, x: &[&Self], errors: &[f64]) -> f64 {
+        elliptic::double_radius(f, x, errors)
     }
 }

@@ -1,6 +1,6 @@
 //! Dual numbers: a value and its derivative along one direction (forward differentiation).
 
-use super::{Func, Number};
+use super::{Elliptic, Func, Number, elliptic};
 
 /// `value + derivative·ε` with ε² = 0.
 #[derive(Clone, Debug, PartialEq)]
@@ -140,6 +140,9 @@ impl<N: Number> Number for Dual<N> {
         let square = x.value.to_the(2).plus(&y.value.to_the(2));
         self.value.set_atan2(&y.value, &x.value);
         self.derivative.set_div(&turned, &square);
+    }
+    fn set_elliptic(&mut self, f: Elliptic, x: &[&Self]) {
+        *self = elliptic::dual(f, x).unwrap_or_else(|| self.like(f64::NAN));
     }
     fn set_sin_cos(sin: &mut Self, cos: &mut Self, a: &Self) {
         N::set_sin_cos(&mut sin.value, &mut cos.value, &a.value);

@@ -1,6 +1,6 @@
 //! Machine numbers, with the functions of the system's mathematical library.
 
-use super::{Func, Number, Operation, Real, decimal};
+use super::{Elliptic, Func, Number, Operation, Real, decimal, elliptic};
 use num_traits::{Float, pow::pow};
 
 /// aⁿ by squaring: at most |n| - 1 multiplications' roundings, and one division's where n is negative.
@@ -111,6 +111,9 @@ impl Number for f64 {
     fn set_atan2(&mut self, y: &Self, x: &Self) {
         *self = atan2(*y, *x);
     }
+    fn set_elliptic(&mut self, f: Elliptic, x: &[&Self]) {
+        *self = elliptic::machine(f, x);
+    }
 
     fn to_f64(&self) -> f64 {
         *self
@@ -144,5 +147,8 @@ impl Real for f64 {
     }
     fn reach() -> f64 {
         1000.0
+    }
+    fn elliptic_radius(f: Elliptic, x: &[&Self], errors: &[f64]) -> f64 {
+        elliptic::machine_radius(f, x, errors)
     }
 }

@@ -1,7 +1,7 @@
 //! Jets: Taylor series in one variable, truncated at an order. The recurrences are those of Griewank and Walther,
 //! *Evaluating Derivatives* (2nd ed. 2008), table 13.2.
 
-use super::{Func, Number};
+use super::{Elliptic, Func, Number, elliptic};
 
 /// The series c₀ + c₁ t + c₂ t² + …; a result has the lower order of its operands.
 #[derive(Clone, Debug, PartialEq)]
@@ -262,6 +262,9 @@ impl<N: Number> Number for Jet<N> {
         let rise = Self::integrated(value.clone(), y, &x.over(&square));
         let fall = Self::integrated(value.like(0.0), x, &y.over(&square));
         *self = rise.minus(&fall);
+    }
+    fn set_elliptic(&mut self, f: Elliptic, x: &[&Self]) {
+        *self = elliptic::jet(f, x).unwrap_or_else(|| self.like(f64::NAN));
     }
     fn set_sin_cos(sin: &mut Self, cos: &mut Self, a: &Self) {
         (*sin, *cos) = a.sin_cos();

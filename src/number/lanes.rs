@@ -1,6 +1,6 @@
 //! Blocks of machine numbers: one instruction of a tape serves many states.
 
-use super::{Func, Number, decimal, float};
+use super::{Elliptic, Func, Number, decimal, elliptic, float};
 
 /// The number of lanes that was the fastest of 4, 8, 16 and 32 in most runs of `benches/tape.rs` on x86-64, by some 10 % before 8.
 pub const LANES: usize = 16;
@@ -89,6 +89,12 @@ impl<const N: usize> Number for Lanes<N> {
     }
     fn set_atan2(&mut self, y: &Self, x: &Self) {
         self.zip(y, x, float::atan2);
+    }
+    fn set_elliptic(&mut self, f: Elliptic, x: &[&Self]) {
+        for (i, lane) in self.0.iter_mut().enumerate() {
+            let x: Vec<&f64> = x.iter().filter_map(|x| x.0.get(i)).collect();
+            *lane = elliptic::machine(f, &x);
+        }
     }
 
     fn to_f64(&self) -> f64 {

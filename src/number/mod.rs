@@ -21,6 +21,7 @@
 mod decimal;
 mod df64;
 mod dual;
+pub mod elliptic;
 mod f61;
 mod float;
 mod func;
@@ -32,10 +33,12 @@ mod jet;
 mod lanes;
 #[cfg(feature = "rug")]
 mod mpfr;
+pub mod quadrature;
 mod reduction;
 mod tracked;
 
 pub use dual::Dual;
+pub use elliptic::Elliptic;
 pub use f61::F61;
 pub use func::Func;
 #[cfg(feature = "rug")]
@@ -101,6 +104,12 @@ pub trait Number: Clone + Debug + Send + Sync + 'static {
     fn set_call(&mut self, f: Func, a: &Self);
     /// self = the angle of the point (x, y), in (-π, π].
     fn set_atan2(&mut self, y: &Self, x: &Self);
+    /// self = f(x), an elliptic function or integral of as many operands as it has ([`Elliptic::arity`]): see [`elliptic`]. Not
+    /// finite for numbers that have no such functions.
+    fn set_elliptic(&mut self, f: Elliptic, x: &[&Self]) {
+        let _ = (f, x);
+        *self = self.like(f64::NAN);
+    }
     /// Sine and cosine of the same angle.
     fn set_sin_cos(sin: &mut Self, cos: &mut Self, a: &Self) {
         sin.set_call(Func::Sin, a);
@@ -191,4 +200,10 @@ pub trait Real: Number {
     /// The relative errors hold for operands whose |log₂| is at most this. Smaller ones have absolute errors below
     /// 2^(-950 - bits).
     fn reach() -> f64;
+    /// How far an elliptic function can move when its operands move within these errors, both in units of the roundoff
+    /// 2^-bits of the result; infinite where no bound is known. Its own rounding is [`elliptic::ROUNDING`].
+    fn elliptic_radius(f: Elliptic, x: &[&Self], errors: &[f64]) -> f64 {
+        let _ = (f, x, errors);
+        f64::INFINITY
+    }
 }

@@ -1,6 +1,6 @@
 //! Numbers of any precision: MPFR by the crate `rug`. Every operation is rounded correctly.
 
-use super::{Func, Number, Operation, Real, decimal};
+use super::{Elliptic, Func, Number, Operation, Real, decimal, elliptic};
 use rug::float::{Constant, Round};
 use rug::ops::{AssignRound, Pow};
 use rug::{Assign, Float, Rational};
@@ -136,6 +136,9 @@ impl Number for Mpfr {
             self.put(bits, y.0.atan2_ref(&x.0));
         }
     }
+    fn set_elliptic(&mut self, f: Elliptic, x: &[&Self]) {
+        *self = elliptic::any_precision(f, x);
+    }
     fn set_sin_cos(sin: &mut Self, cos: &mut Self, a: &Self) {
         for x in [&mut *sin, &mut *cos] {
             if x.0.prec() != a.0.prec() {
@@ -179,5 +182,8 @@ impl Real for Mpfr {
     }
     fn reach() -> f64 {
         f64::INFINITY
+    }
+    fn elliptic_radius(f: Elliptic, x: &[&Self], errors: &[f64]) -> f64 {
+        elliptic::any_radius(f, x, errors)
     }
 }

@@ -6,7 +6,7 @@
 //! have none (division by what may be zero, a root near zero) the bound is infinite. The bounds themselves are computed
 //! in machine numbers, and rounded up.
 
-use super::{Func, Number, Operation, Real};
+use super::{Elliptic, Func, Number, Operation, Real, elliptic};
 
 /// A value, and a bound of its error in units of its roundoff 2^-bits.
 #[derive(Clone, Debug, PartialEq)]
@@ -314,6 +314,15 @@ impl<N: Real> Number for Tracked<N> {
             false => ey.hypot(ex) / nearest,
         };
         self.close(propagated, N::rounding(Operation::Atan2));
+    }
+    fn set_elliptic(&mut self, f: Elliptic, x: &[&Self]) {
+        let values: Vec<&N> = x.iter().map(|x| &x.value).collect();
+        self.value.set_elliptic(f, &values);
+        let unit = bits(&self.value);
+        let errors: Vec<f64> = x.iter().map(|x| x.error_in(unit)).collect();
+        let moves = errors.iter().any(|e| *e > 0.0);
+        let propagated = if moves { N::elliptic_radius(f, &values, &errors) } else { 0.0 };
+        self.close(propagated, elliptic::ROUNDING);
     }
     fn set_sin_cos(sin: &mut Self, cos: &mut Self, a: &Self) {
         N::set_sin_cos(&mut sin.value, &mut cos.value, &a.value);

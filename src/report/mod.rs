@@ -21,6 +21,7 @@ mod write;
 
 pub use charts::Chart;
 pub use counts::Counts;
+pub use diff::words as marked_words;
 
 use crate::check::verdict::DocumentReport;
 use std::path::{Path, PathBuf};

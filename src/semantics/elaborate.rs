@@ -74,7 +74,7 @@ impl<'w> Elaborator<'w> {
             Kind::List(items) => self.tuple(items),
             Kind::Matrix { env, rows } => self.matrix(*env, rows, &node.span),
             Kind::Annotated { body, .. } => self.value(body),
-            Kind::Function(name) => Err(Error::unsupported(format!("\\{name} has no argument here"), &node.span)),
+            Kind::Function(_) => self.product(node),
             Kind::BigOp(_) => Err(Error::unsupported("this operator has nothing to act on", &node.span)),
             Kind::Empty => Err(Error::unsupported("an expression is missing here", &node.span)),
             Kind::Text(text) => Err(Error::unsupported(format!("words within a formula: {text}"), &node.span)

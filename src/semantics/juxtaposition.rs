@@ -18,6 +18,7 @@ use crate::latex::to_latex;
 
 use super::calculus::Derivative;
 use super::elaborate::{Elaborator, Typed};
+use super::elliptic::is_name;
 use super::error::{Error, Result};
 use super::quaternion;
 use super::value::{self, Value};
@@ -66,7 +67,7 @@ impl Elaborator<'_> {
     pub(super) fn product(&mut self, node: &Node) -> Result<Typed> {
         let mut items = Vec::new();
         flatten(node, &mut items);
-        items.retain(|item| !matches!(item, Item::Factor(n) if matches!(n.kind, Kind::Text(_))));
+        items.retain(|item| !matches!(item, Item::Factor(n) if matches!(n.kind, Kind::Text(_)) && !is_name(n)));
         self.items(&items)
     }
 
@@ -162,6 +163,9 @@ impl Elaborator<'_> {
         if self.scope.quaternions
             && let Some(found) = self.taken_apart(items)?
         {
+            return Ok(found);
+        }
+        if let Some(found) = self.elliptic(items)? {
             return Ok(found);
         }
         let (head, sup) = head_and_power(node);
@@ -426,7 +430,7 @@ fn latex_of(items: &[Item]) -> String {
 }
 
 /// A factor without its power: `\sin^2` is (sin, 2). Subscripted names are heads of their own.
-fn head_and_power(node: &Node) -> (&Node, Option<&Node>) {
+pub(super) fn head_and_power(node: &Node) -> (&Node, Option<&Node>) {
     match &node.kind {
         Kind::Scripts { base, sub: None, sup, primes: 0 } => (base, sup.as_deref()),
         Kind::Scripts { base, .. } if matches!(base.kind, Kind::BigOp(_)) => (base, None),
@@ -438,7 +442,7 @@ fn is_minus_one(term: &crate::latex::ast::Term) -> bool {
     term.sign == crate::latex::ast::Sign::Minus && matches!(&term.node.kind, Kind::Number(n) if n == "1")
 }
 
-fn is_bracket(node: &Node) -> bool {
+pub(super) fn is_bracket(node: &Node) -> bool {
     matches!(head_and_power(node).0.kind, Kind::Group { .. })
 }
 

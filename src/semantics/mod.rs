@@ -12,6 +12,7 @@
 mod calculus;
 mod counting;
 mod elaborate;
+mod elliptic;
 mod error;
 mod geometric;
 mod juxtaposition;

@@ -121,6 +121,8 @@ pub struct Scope {
     pub quaternions: bool,
     /// Whether the section is written in natural units, so that dimensions say nothing.
     pub natural_units: bool,
+    /// The modulus of elliptic functions that are printed without one.
+    pub modulus: Option<Node>,
 }
 
 impl Scope {
@@ -182,6 +184,9 @@ impl Scope {
         }
         self.assume.extend(block.assume.iter().cloned());
         self.natural_units = block.natural_units.unwrap_or(self.natural_units);
+        if let Some(modulus) = &block.modulus {
+            self.modulus = parse_name(modulus, &mut problems);
+        }
         problems
     }
 
@@ -259,7 +264,16 @@ impl Scope {
             found.insert(pattern);
             return;
         }
-        node.children().into_iter().for_each(|child| self.collect_names(child, found));
+        match &node.kind {
+            // Names that are not declared yet.
+            Kind::Accent(..) | Kind::Styled(..) => {}
+            Kind::Scripts { base, sub: Some(sub), .. } => {
+                if matches!(base.kind, Kind::Group { .. }) || self.axis(&spelling(sub)).is_some() {
+                    self.collect_names(base, found);
+                }
+            }
+            _ => node.children().into_iter().for_each(|child| self.collect_names(child, found)),
+        }
     }
 
     /// Whether what a name stands for leads back to it.

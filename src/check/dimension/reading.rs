@@ -5,7 +5,7 @@
 
 use std::collections::HashMap;
 
-use crate::expr::{Expr, Func, Node, SymId};
+use crate::expr::{Elliptic, Expr, Func, Node, SymId};
 use crate::latex::ast::Rel;
 use crate::semantics::units::Dimension;
 use crate::semantics::{Clause, Elaborator, Joint, PrintedTerm, Quantity, Role, Scope, Value, World, printed_terms};
@@ -192,6 +192,16 @@ impl<'w> Walk<'w> {
             }
             Node::Atan2(a, b) => {
                 self.imply(self.of(a), self.of(b));
+                Some(number)
+            }
+            Node::Elliptic(f, x) => {
+                // Carlson's integrals are homogeneous functions of their arguments, of degree -1/2 or -3/2.
+                if f.modulus().is_none() {
+                    x.iter().skip(1).take(f.arity() - 1).for_each(|y| self.imply(self.of(x[0]), self.of(*y)));
+                    let degree = if matches!(f, Elliptic::Rc | Elliptic::Rf) { -1 } else { -3 };
+                    return self.of(x[0])?.to_the((degree, 2));
+                }
+                x.iter().take(f.arity()).for_each(|y| self.imply(self.of(*y), Some(number.clone())));
                 Some(number)
             }
         }

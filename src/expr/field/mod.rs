@@ -12,6 +12,9 @@
 //! - A square root has both signs: a statement is tested with every choice of signs, and holds only if it does with all.
 //!   Then the coefficients of all products of roots vanish, whichever roots depend on each other.
 //! - π is a variable, since it is transcendental, but for the exact rotations by whole and half multiples of it.
+//! - sn, cn and dn of the same argument and modulus are a random point of the curve sn² + cn² = 1, dn² = 1 - k² sn²: again more
+//!   freely than they are, since sn is independent of u and k. The root dn is the one that is a square; the other one is its conjugate, so that what
+//!   vanishes with one does with both.
 //! - Anything else (exp, ln, |x|, inverse functions, powers with variable exponents, e) is a variable of its own for each
 //!   argument. Identities hold a fortiori, but that they fail says nothing: see [`Field::meaningless`].
 //!
@@ -30,7 +33,7 @@ mod tests;
 pub use degree::{Degree, Element, uniform};
 
 use super::graph::{Expr, Graph, Node, SymId};
-use crate::number::{F61, Func};
+use crate::number::{Elliptic, F61, Func};
 use angle::Angles;
 use std::collections::{BTreeSet, HashMap};
 
@@ -44,6 +47,8 @@ pub struct Field<'g> {
     roots: Vec<Expr>,
     /// What has no meaning in the field, in order.
     meaningless: Vec<Expr>,
+    /// The arguments and moduli of sn, cn and dn, in order.
+    curves: Vec<(Expr, Expr)>,
 }
 
 /// A point at which to evaluate.
@@ -53,6 +58,8 @@ pub struct Point {
     pub symbols: Vec<Element>,
     /// Cosine and sine of the arguments.
     rotations: HashMap<Expr, (Element, Element)>,
+    /// sn and cn, by argument and modulus.
+    curves: HashMap<(Expr, Expr), (Element, Element)>,
     /// π and what has no meaning in the field.
     others: HashMap<Expr, Element>,
 }
@@ -79,11 +86,13 @@ impl<'g> Field<'g> {
         };
         let arguments: BTreeSet<Expr> = order.iter().filter_map(argument).collect();
         let arguments: Vec<Expr> = arguments.into_iter().collect();
+        let curves: BTreeSet<_> = order.iter().filter_map(|e| on_curve(graph.node(*e))).map(|(_, at)| at).collect();
         let some = |wanted: fn(&Node) -> bool| order.iter().copied().filter(|e| wanted(graph.node(*e))).collect();
         Field {
             angles: Angles::new(graph, &arguments),
             roots: some(|n| matches!(n, Node::Sqrt(_))),
             meaningless: some(is_meaningless),
+            curves: curves.into_iter().collect(),
             graph,
             order,
         }
@@ -113,7 +122,7 @@ impl<'g> Field<'g> {
 
     /// The degree to be divided by the number of elements, of an expression with this degree.
     pub fn total_degree(&self, degree: Degree) -> u64 {
-        degree.num.saturating_mul(1 + self.angles.atoms as u64).max(1)
+        degree.num.saturating_mul(1 + (self.angles.atoms + self.curves.len()) as u64).max(1)
     }
 
     /// Draws a point from a source of random bits.
@@ -134,7 +143,13 @@ impl<'g> Field<'g> {
             let (c, s) = rotation(turn);
             (*e, (Element { value: c, degree }, Element { value: s, degree }))
         });
-        Point { symbols, rotations: rotations.collect(), others }
+        let curves = self.curves.iter().filter_map(|at| {
+            let (s, c) = F61::sin_cos(uniform(random))?;
+            let degree = Degree::polynomial(2);
+            Some((*at, (Element { value: s, degree }, Element { value: c, degree })))
+        });
+        let rotations = rotations.collect();
+        Point { symbols, rotations, curves: curves.collect(), others }
     }
 
     /// The values at a point. Bit n of `signs` is the sign of the root number n.
@@ -169,7 +184,10 @@ impl<'g> Field<'g> {
             Node::Call(Func::Cos, a) => point.rotations.get(&a).map(|(c, _)| *c),
             Node::Call(Func::Sin, a) => point.rotations.get(&a).map(|(_, s)| *s),
             Node::Call(Func::Tan, a) => point.rotations.get(&a).and_then(|(c, s)| s.over(*c)),
-            _ => point.others.get(&e).copied(),
+            _ => match on_curve(&node) {
+                Some((f, at)) => on_point(f, *point.curves.get(&at)?, of(at.1)),
+                None => point.others.get(&e).copied(),
+            },
         }
     }
 }
@@ -180,16 +198,35 @@ fn algebraic_part(graph: &Graph, es: &[Expr]) -> Vec<Expr> {
     let mut queue: Vec<Expr> = order.iter().copied().collect();
     while let Some(e) = queue.pop() {
         let node = graph.node(e);
-        if !is_meaningless(node) && !matches!(node, Node::Call(..)) {
+        if let Some((_, (_, modulus))) = on_curve(node) {
+            queue.extend(Some(modulus).filter(|k| order.insert(*k)));
+        } else if !is_meaningless(node) && !matches!(node, Node::Call(..)) {
             queue.extend(node.operands().filter(|a| order.insert(*a)));
         }
     }
     order.into_iter().collect()
 }
 
+/// One of sn, cn and dn, with its argument and modulus.
+fn on_curve(node: &Node) -> Option<(Elliptic, (Expr, Expr))> {
+    match *node {
+        Node::Elliptic(f @ (Elliptic::Sn | Elliptic::Cn | Elliptic::Dn), [u, k, ..]) => Some((f, (u, k))),
+        _ => None,
+    }
+}
+
+/// Its value at the point (sn, cn) for the modulus k.
+fn on_point(f: Elliptic, (sn, cn): (Element, Element), k: Option<Element>) -> Option<Element> {
+    match f {
+        Elliptic::Sn => Some(sn),
+        Elliptic::Cn => Some(cn),
+        _ => Element::int(1).minus(k?.times(sn).powi(2)?).sqrt(),
+    }
+}
+
 fn is_meaningless(node: &Node) -> bool {
     match node {
-        Node::E | Node::Pow(..) | Node::Atan2(..) => true,
+        Node::E | Node::Pow(..) | Node::Atan2(..) | Node::Elliptic(..) => true,
         Node::Call(f, _) => !matches!(f, Func::Sin | Func::Cos | Func::Tan),
         _ => false,
     }
@@ -200,6 +237,7 @@ fn word(node: &Node) -> &'static str {
         Node::Call(f, _) => f.name(),
         Node::Pow(..) => "a power with a variable exponent",
         Node::Atan2(..) => "atan2",
+        Node::Elliptic(..) => "an elliptic function",
         Node::E => "e",
         _ => "π",
     }

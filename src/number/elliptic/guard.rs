@@ -1,0 +1,133 @@
+//! Guard digits: which numbers the algorithms run on for a result of this or that number.
+//!
+//! Machine numbers run on double-doubles, and on 256 bits where those lose too much; double-doubles on 256 bits; `Mpfr` on
+//! 64 bits more, and on more again.
+
+use super::super::{Df64, Number};
+use super::arithmetic::{Arithmetic, Spread};
+use super::float256::Float256;
+use super::{Argument, Elliptic, MOST_ARGUMENTS, Outcome, run};
+
+/// Bits that the algorithms' own roundings may take, beyond those whose loss is estimated.
+const MARGIN: f64 = 12.0;
+/// Double-doubles lose precision by underflow in intermediate results of arguments beyond 2^±this.
+const DOUBLE_REACH: f64 = 200.0;
+
+type Arguments<W> = [Argument<W>; MOST_ARGUMENTS];
+
+/// The value, if what it lost leaves the bits that are wanted.
+fn kept<W: Arithmetic>(outcome: Outcome<W>, bits: u32) -> Option<W> {
+    let Outcome { value, lost } = outcome;
+    (value.is_known() && lost + MARGIN + f64::from(bits) <= f64::from(value.bits())).then_some(value)
+}
+
+/// The arguments of a function, the last one again and again where it has fewer; the modulus without its sign.
+fn arguments<N: Number, W>(f: Elliptic, x: &[&N], widen: impl Fn(&N) -> Argument<W>) -> Option<Arguments<W>> {
+    let wide = |i: usize| {
+        let i = i.min(f.arity() - 1);
+        let x = *x.get(i)?;
+        Some(if f.modulus() == Some(i) && x.to_f64() < 0.0 { widen(&x.negated()) } else { widen(x) })
+    };
+    Some([wide(0)?, wide(1)?, wide(2)?, wide(3)?])
+}
+
+fn from_machine(x: &f64) -> Argument<Df64> {
+    Argument { value: Df64::from(*x), complement: Df64::from(1.0) - Df64::from(*x) }
+}
+
+fn from_double(x: &Df64) -> Argument<Float256> {
+    // Without rounding: 1 - hi may be small, and then lo counts.
+    let rest = Df64::from(1.0) - Df64::from(x.hi());
+    let complement = Float256::from_df64(rest).difference(&Float256::from_df64(Df64::from(x.lo())));
+    Argument { value: Float256::from_df64(*x), complement }
+}
+
+/// f of machine numbers.
+pub(in crate::number) fn machine(f: Elliptic, x: &[&f64]) -> f64 {
+    let near = x.iter().all(|x| **x == 0.0 || x.abs().log2().abs() < DOUBLE_REACH);
+    let first = arguments(f, x, from_machine).filter(|_| near).and_then(|x| kept(run(f, &x), 53));
+    match first {
+        Some(value) => value.hi(),
+        None => arguments(f, x, |x| from_double(&Df64::from(*x)))
+            .and_then(|x| kept(run(f, &x), 53))
+            .map_or(f64::NAN, |value| value.approx()),
+    }
+}
+
+/// f of double-doubles.
+pub(in crate::number) fn double(f: Elliptic, x: &[&Df64]) -> Df64 {
+    let value = arguments(f, x, from_double).and_then(|x| kept(run(f, &x), 104));
+    value.map_or(Df64::from(f64::NAN), Float256::to_df64)
+}
+
+/// The arguments with their errors, in units of 2^-`unit`.
+fn spreads<W: Arithmetic>(f: Elliptic, x: Arguments<W>, errors: &[f64], unit: u32) -> Arguments<Spread<W>> {
+    let mut i = 0;
+    x.map(|x| {
+        let radius = errors.get(i.min(f.arity() - 1)).copied().unwrap_or(f64::INFINITY);
+        i += 1;
+        let spread = |value| Spread { value, radius, unit };
+        Argument { value: spread(x.value), complement: spread(x.complement) }
+    })
+}
+
+/// How far f can move when machine numbers move within their errors, both in units of 2^-53.
+pub(in crate::number) fn machine_radius(f: Elliptic, x: &[&f64], errors: &[f64]) -> f64 {
+    let wide = arguments(f, x, |x| from_double(&Df64::from(*x)));
+    wide.map_or(f64::INFINITY, |x| run(f, &spreads(f, x, errors, 53)).value.radius)
+}
+
+/// How far f can move when double-doubles move within their errors, both in units of 2^-104.
+pub(in crate::number) fn double_radius(f: Elliptic, x: &[&Df64], errors: &[f64]) -> f64 {
+    arguments(f, x, from_double).map_or(f64::INFINITY, |x| run(f, &spreads(f, x, errors, 104)).value.radius)
+}
+
+#[cfg(feature = "rug")]
+mod any {
+    use super::super::super::Mpfr;
+    use super::*;
+    use rug::Float;
+
+    /// How often the precision is raised.
+    const ATTEMPTS: u32 = 3;
+
+    fn from_mpfr(x: &Mpfr, bits: u32) -> Argument<Mpfr> {
+        let complement = Mpfr(Float::with_val(bits, 1 - &x.0));
+        Argument { value: Mpfr(Float::with_val(bits, &x.0)), complement }
+    }
+
+    fn precision(x: &[&Mpfr]) -> u32 {
+        x.iter().map(|x| x.0.prec()).max().unwrap_or(64)
+    }
+
+    /// f, in the largest precision of the arguments.
+    pub(in crate::number) fn any_precision(f: Elliptic, x: &[&Mpfr]) -> Mpfr {
+        let bits = precision(x);
+        let undefined = Mpfr(Float::with_val(bits, f64::NAN));
+        let finite = x.iter().all(|x| x.0.is_finite());
+        let mut wide = bits.saturating_add(64);
+        for _ in 0..ATTEMPTS {
+            let Some(x) = arguments(f, x, |x| from_mpfr(x, wide)).filter(|_| finite) else { break };
+            let outcome = run(f, &x);
+            let lost = outcome.lost;
+            if !outcome.value.is_known() && !(lost > 0.0) {
+                break;
+            }
+            if let Some(value) = kept(outcome, bits) {
+                return Mpfr(Float::with_val(bits, &value.0));
+            }
+            let more = if lost.is_finite() { lost.max(0.0) as u32 } else { wide };
+            wide = bits.saturating_add(64).saturating_add(more.min(wide.saturating_mul(4))).max(wide);
+        }
+        undefined
+    }
+
+    /// How far f can move when the arguments move within their errors, in units of the roundoff of the result.
+    pub(in crate::number) fn any_radius(f: Elliptic, x: &[&Mpfr], errors: &[f64]) -> f64 {
+        let bits = precision(x);
+        let wide = arguments(f, x, |x| from_mpfr(x, bits.saturating_mul(2)));
+        wide.map_or(f64::INFINITY, |x| run(f, &spreads(f, x, errors, bits)).value.radius)
+    }
+}
+#[cfg(feature = "rug")]
+pub(in crate::number) use any::{any_precision, any_radius};
