@@ -1,5 +1,6 @@
 //! Premises that go in a circle: equations derived from each other.
 
+use std::collections::hash_map::Entry;
 use std::collections::{HashMap, VecDeque};
 use std::sync::Arc;
 
@@ -82,8 +83,8 @@ fn shortest(rests: &[Vec<usize>], suspects: &[bool], start: usize) -> Option<Vec
                 members.reverse();
                 return Some(members);
             }
-            if !before.contains_key(&next) {
-                before.insert(next, at);
+            if let Entry::Vacant(first) = before.entry(next) {
+                first.insert(at);
                 queue.push_back(next);
             }
         }

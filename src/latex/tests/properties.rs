@@ -315,6 +315,23 @@ fn formulas_are_read() {
     }
 }
 
+/// What fuzzing found: printed, these were read otherwise.
+#[test]
+fn printed_formulas_are_read_as_they_were_meant() {
+    for formula in [
+        r"\mathbf{emu{回転'}} = 1",
+        r"{\text{and}}! b",
+        r"\operatorname{arg\,max} x",
+        r"\operatorname{a%b} x + 1",
+        r"t = \begin{pmatrix} a \\ \mu \\ \\ \\ \end{pmatrix}",
+    ] {
+        assert!(parse(formula).is_ok(), "{formula}");
+        check_source(formula);
+    }
+    let function = parse(r"\operatorname{arg\,max} x").unwrap();
+    assert_eq!(to_latex(&function), r"\operatorname{argmax} x");
+}
+
 /// Sources made to exhaust the stack, the memory or the patience.
 #[test]
 fn hostile_sources_are_answered_quickly() {
