@@ -179,10 +179,12 @@ impl Elaborator<'_> {
 
 /// How many items the arguments are: a bracket, or, of Jacobi's functions, numbers and one more factor.
 fn argument_length(named: Named, rest: &[Item]) -> usize {
-    let factor = |item: &Item| match item {
-        Item::Factor(n) => Some(*n),
-        Item::Op(..) => None,
-    };
+    fn factor<'n>(item: &Item<'n>) -> Option<&'n Node> {
+        match item {
+            Item::Factor(n) => Some(*n),
+            Item::Op(..) => None,
+        }
+    }
     let bracket = rest.first().and_then(factor).is_some_and(is_bracket);
     if bracket || matches!(named, Named::Legendre(..)) {
         return usize::from(bracket);
