@@ -107,8 +107,8 @@ fn size() {
     answered("display", &display(&format!("a = {} a", "a + ".repeat(2_500_000))), "bytes; at most 65536 are read");
     // As long as is read, in ways that take the square of the length if one is not careful.
     for (name, latex) in [
-        ("sum", format!("a = {} a", "a + ".repeat(15_000))),
-        ("product", format!("a = {} a", "a b ".repeat(15_000))),
+        ("long_sum", format!("a = {} a", "a + ".repeat(15_000))),
+        ("long_product", format!("a = {} a", "a b ".repeat(15_000))),
         ("crosses", format!("a = {} a", r"a \times ".repeat(6_000))),
         ("signs", format!("a = {} a", r"b \pm ".repeat(5_000))),
         ("fractions_side_by_side", format!("a = {} a", r"\frac{a}{b} ".repeat(5_000))),
