@@ -53,7 +53,11 @@ fn work_is_the_change_of_the_energy() {
         r"\frac{1}{2} a \dot{x}^2 - \left(\frac{1}{2} a \dot{x}^2\right)_0 = \int_0^t y\,dx",
         r"\frac{1}{2} a \dot{x}^2 + \left(\frac{1}{2} a \dot{x}^2\right)_0 = \int_0^t y\,dx",
     );
-    tells_apart(newton, r"\left. a \dot{x} \right|_0^t = \int_0^t y\,dt", r"\left. a \dot{x} \right|_0^t = \int_0^t x\,dt");
+    tells_apart(
+        newton,
+        r"\left. a \dot{x} \right|_0^t = \int_0^t y\,dt",
+        r"\left. a \dot{x} \right|_0^t = \int_0^t x\,dt",
+    );
     assert_eq!(verdict(r"a \dot{x} = \int_0^t y\,dt", newton), Verdict::Fails, "the velocity at the start is not zero");
 }
 
@@ -92,7 +96,11 @@ fn directions_are_compared() {
 #[test]
 fn what_is_said_in_brackets_counts() {
     tells_apart("", r"a + b = b + a \quad (a b = b a)", r"a + b = b + a \quad (a b = b)");
-    tells_apart("", r"(a + b)^2 = a^2 + 2ab + b^2 \left(= (b + a)^2\right)", r"(a + b)^2 = a^2 + 2ab + b^2 (= a^2 + b^2)");
+    tells_apart(
+        "",
+        r"(a + b)^2 = a^2 + 2ab + b^2 \left(= (b + a)^2\right)",
+        r"(a + b)^2 = a^2 + 2ab + b^2 (= a^2 + b^2)",
+    );
     tells_apart("", r"a + a = 2a \rightarrow a + a + a = 3a", r"a + a = 2a \rightarrow a + a + a = 2a");
     tells_apart("", r"\underbrace{2a = a + a}_{\text{twice}} = 3a - a", r"\underbrace{2a = a + a}_{\text{twice}} = 3a");
 }
@@ -123,7 +131,8 @@ fn a_law_is_taken_as_given_if_it_can_be_understood() {
 
 #[test]
 fn names_that_go_in_a_circle_are_refused() {
-    let source = "<!-- kenzan\n[symbols]\n'a' = { same = 'b + 1' }\n'b' = { same = 'a' }\n-->\n\n$$ a = a \\tag{1} $$\n";
+    let source =
+        "<!-- kenzan\n[symbols]\n'a' = { same = 'b + 1' }\n'b' = { same = 'a' }\n-->\n\n$$ a = a \\tag{1} $$\n";
     let document = document::parse(Path::new("notes.md"), source);
     let book = Book::new(&document);
     assert!(book.problems.iter().any(|p| p.message.contains("another notation of itself")), "{:?}", book.problems);
