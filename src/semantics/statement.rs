@@ -1,7 +1,7 @@
 //! From a parsed equation to its links: what is said to equal what.
 
 use crate::expr::Expr;
-use crate::latex::ast::{Delim, Kind, Link, MatrixEnv, Node, Rel, Sign, Span};
+use crate::latex::ast::{Delim, Kind, Link, MatrixEnv, Node, Rel, Sign, Span, Term};
 use crate::latex::to_latex;
 
 use super::elaborate::Elaborator;
@@ -220,13 +220,24 @@ fn holds_relation(node: &Node) -> bool {
 
 /// A side without the statement in brackets behind it, and that statement: `f (= g)`, `0 (a \parallel b)`.
 fn without_aside(side: &Node) -> (Node, Option<&Node>) {
-    let Kind::Juxt(factors) = &side.kind else { return (side.clone(), None) };
-    match factors.split_last() {
-        Some((Node { kind: Kind::Group { open: Delim::Paren, body, .. }, .. }, rest)) if holds_relation(body) => {
-            let kind = if rest.len() == 1 { rest[0].kind.clone() } else { Kind::Juxt(rest.to_vec()) };
-            let end = rest.last().map_or(side.span.end, |n| n.span.end);
-            (Node::new(kind, side.span.start..end), Some(body))
-        }
+    match &side.kind {
+        Kind::Juxt(factors) => match factors.split_last() {
+            Some((Node { kind: Kind::Group { open: Delim::Paren, body, .. }, .. }, rest)) if holds_relation(body) => {
+                let kind = if rest.len() == 1 { rest[0].kind.clone() } else { Kind::Juxt(rest.to_vec()) };
+                let end = rest.last().map_or(side.span.end, |n| n.span.end);
+                (Node::new(kind, side.span.start..end), Some(body))
+            }
+            _ => (side.clone(), None),
+        },
+        // Behind the last term of a sum.
+        Kind::Sum(terms) => match terms.split_last() {
+            Some((last, rest)) => {
+                let (node, aside) = without_aside(&last.node);
+                let terms = rest.iter().cloned().chain([Term { node, ..last.clone() }]).collect();
+                (Node::new(Kind::Sum(terms), side.span.clone()), aside)
+            }
+            None => (side.clone(), None),
+        },
         _ => (side.clone(), None),
     }
 }
