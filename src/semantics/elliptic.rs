@@ -179,10 +179,12 @@ impl Elaborator<'_> {
 
 /// How many items the arguments are: a bracket, or, of Jacobi's functions, numbers and one more factor.
 fn argument_length(named: Named, rest: &[Item]) -> usize {
-    let factor = |item: &Item| match item {
-        Item::Factor(n) => Some(*n),
-        Item::Op(..) => None,
-    };
+    fn factor<'n>(item: &Item<'n>) -> Option<&'n Node> {
+        match item {
+            Item::Factor(n) => Some(*n),
+            Item::Op(..) => None,
+        }
+    }
     let bracket = rest.first().and_then(factor).is_some_and(is_bracket);
     if bracket || matches!(named, Named::Legendre(..)) {
         return usize::from(bracket);
@@ -233,7 +235,7 @@ modulus = 'k'
         for (latex, text) in [
             (r"\operatorname{sn}^2 u", "sn(u, k)^2"),
             (r"\text{cn}^2 u", "cn(u, k)^2"),
-            (r"\text{cn} 2u t", "(t * cn((2 * u), k))"),
+            (r"\text{cn} 2u t", "(cn((2 * u), k) * t)"),
             (r"\operatorname{dn}(v, q)", "dn(v, q)"),
             (r"t \operatorname{nd} u", "(t * (1 / dn(u, k)))"),
             (r"\operatorname{sd}u", "(sn(u, k) / dn(u, k))"),
