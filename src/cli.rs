@@ -45,6 +45,9 @@ enum Command {
         /// What to print: a summary, or the report as JSON.
         #[arg(long, value_enum, default_value_t = Format::Human)]
         format: Format,
+        /// Leave times out of the report: the same notes and the same seed then give the same bytes.
+        #[arg(long)]
+        no_times: bool,
         #[command(flatten)]
         sampling: Sampling,
         /// Judge only the equation of this label; may be repeated.
@@ -101,6 +104,13 @@ enum Format {
     Json,
 }
 
+/// What is printed, and what the reports leave out.
+#[derive(Clone, Copy)]
+struct Printed {
+    format: Format,
+    options: report::Options,
+}
+
 /// Reads a precision; without the feature `rug` there is none to choose.
 fn precision(text: &str) -> Result<u32, String> {
     let bits: u32 = text.parse().map_err(|_| format!("expected a number of bits, found `{text}`"))?;
@@ -134,10 +144,11 @@ pub fn main() -> ExitCode {
         }
     };
     let outcome = match arguments.command {
-        Command::Verify { paths, out, format, sampling, only, mutants, suggest, deep } => {
+        Command::Verify { paths, out, format, no_times, sampling, only, mutants, suggest, deep } => {
             let (mutants, suggest) = (mutants || deep, suggest || deep);
             let request = Request { paths, options: sampling.options(), only, mutants, suggest };
-            in_pool(sampling.jobs, || verify_command(&request, &out, format))
+            let printed = Printed { format, options: report::Options { times: !no_times } };
+            in_pool(sampling.jobs, || verify_command(&request, &out, printed))
         }
         Command::Explain { path, label, sampling } => {
             in_pool(sampling.jobs, || explain_command(&path, &label, &sampling))
@@ -159,7 +170,7 @@ fn in_pool(jobs: Option<u16>, work: impl FnOnce() -> miette::Result<u8> + Send) 
     pool.install(work)
 }
 
-fn verify_command(request: &Request, out: &std::path::Path, format: Format) -> miette::Result<u8> {
+fn verify_command(request: &Request, out: &std::path::Path, printed: Printed) -> miette::Result<u8> {
     let begin = Instant::now();
     let documents = verify::documents(&request.paths)?;
     let total: usize = documents.iter().map(|d| d.equations().count()).sum();
@@ -172,8 +183,8 @@ fn verify_command(request: &Request, out: &std::path::Path, format: Format) -> m
         show_problems(v);
     }
     let run = verify::run(&verified, request, begin);
-    let written = report::write(&run, out)?;
-    print(&run, format, &written)?;
+    let written = report::write(&run, out, printed.options)?;
+    print(&run, printed, &written)?;
     Ok(if verify::all_as_expected(&verified) { AS_EXPECTED } else { NOT_AS_EXPECTED })
 }
 
@@ -209,14 +220,14 @@ fn check_labels(request: &Request, verified: &[Verified]) -> miette::Result<()> 
     Ok(())
 }
 
-fn print(run: &Run, format: Format, written: &report::Written) -> miette::Result<()> {
-    let text = match format {
+fn print(run: &Run, printed: Printed, written: &report::Written) -> miette::Result<()> {
+    let text = match printed.format {
         Format::Human => {
             let colour = std::io::stdout().is_terminal() && std::env::var_os("NO_COLOR").is_none();
-            let summary = terminal::render(run, colour, report::Options::default());
+            let summary = terminal::render(run, colour, printed.options);
             format!("{summary}\nreport: {}\n", written.html.display())
         }
-        Format::Json => report::json::render(run, report::Options::default())?,
+        Format::Json => report::json::render(run, printed.options)?,
     };
     // A closed pipe is no failure.
     let _ = std::io::stdout().write_all(text.as_bytes());

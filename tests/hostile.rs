@@ -235,9 +235,16 @@ fn symbols_and_premises() {
 
 #[test]
 fn circles() {
-    answered("same", &declared("'p' = { same = 'q' }\n'q' = { same = 'p' }", "p = a"), "in a circle?");
-    answered("itself", &declared("'p' = { same = 'p' }", "p = a"), "in a circle?");
-    answered("component", &declared("'p' = { component_of = 'p' }", "p = a"), "in a circle?");
+    for (name, symbols) in [
+        ("same", "'p' = { same = 'q' }\n'q' = { same = 'p' }"),
+        ("itself", "'p' = { same = 'p' }"),
+        ("component", "'p' = { component_of = 'p' }"),
+    ] {
+        let text = said(name, &declared(symbols, "p = a"), &[]);
+        assert!(text.contains("is another notation of itself"), "{text:.1000}");
+    }
+    let backwards: String = (0..20_000).map(|n| format!("'p_{{{}}}' = {{ same = 'p_{{{n}}}' }}\n", n + 1)).collect();
+    answered("chain_backwards", &declared(&backwards, "p_{20000} = a"), "in a circle?");
     let chain: String = (0..20_000).map(|n| format!("'p_{{{n}}}' = {{ same = 'p_{{{}}}' }}\n", n + 1)).collect();
     answered("chain", &declared(&chain, "p_{0} = a"), "in a circle?");
     let premises = ["'a = b'", "'b = a'", "'a = a + 1'"].map(String::from);
@@ -247,7 +254,11 @@ fn circles() {
 
 #[test]
 fn time() {
-    let text = said("states", &display("a^2 - b^2 = (a - b)(a + b)"), &["--states", "1000000", "--budget", "1"]);
+    let at = directory("time");
+    std::fs::write(at.join("notes.md"), HEAD).unwrap();
+    let output = kenzan(&at, &["--states", "1000000", "--budget", "1"]);
+    let text = String::from_utf8(output.stdout).unwrap();
+    assert_eq!(output.status.code(), Some(1), "{text:.1000}");
     assert!(text.contains("the time budget of 1 s is used up"), "{text:.1000}");
     assert!(text.contains("--budget SECONDS grants more"));
 }

@@ -6,8 +6,10 @@
 use std::path::Path;
 
 use kenzan::check::{self, Book, Options};
-use kenzan::diagnose::measure::{self, Rank};
-use kenzan::document;
+use kenzan::diagnose::correct;
+use kenzan::diagnose::measure::{self, Rank, Soundness};
+use kenzan::document::{self, Item};
+use rayon::prelude::*;
 
 fn notes() -> Book {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("notes/gyroscope.md");
@@ -45,7 +47,32 @@ fn errata_are_found() {
         print(&rank);
     }
     println!("{first} of {total} corrections come first, {found} are among the first three");
-    assert!(std::env::var("ONLY").is_ok() || total == 23 && found >= 14, "{found} of {total}");
+    assert!(std::env::var("ONLY").is_ok() || total == 23 && first >= 20 && found >= 21, "{first}, {found} of {total}");
+}
+
+/// The search must not see the correction it is measured by: without it in the document it finds the same.
+#[test]
+fn the_correction_is_not_seen() {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("notes/gyroscope.md");
+    let (document, options) = (document::read(&path).expect("the notes can be read"), options());
+    let book = Book::new(&document);
+    for label in ["8+1", "42", "45", "60", "83"] {
+        let mut without = document.clone();
+        for item in &mut without.items {
+            if let Item::Equation(e) = item
+                && e.label == label
+            {
+                let annotation = e.annotation.as_mut().expect("it has a correction");
+                assert!(annotation.correction.take().is_some());
+            }
+        }
+        let blind = Book::new(&without);
+        let suggestions = |book: &Book| {
+            let index = book.entries.iter().position(|e| e.equation.label == label).expect("it is in the notes");
+            correct::suggestions(book, index, &check::judge(book, index, &options), &options)
+        };
+        assert_eq!(suggestions(&book), suggestions(&blind), "({label})");
+    }
 }
 
 /// Prints how many of the originals are found, for each kind of edit and for each equation; returns the counts of all:
@@ -94,7 +121,37 @@ fn originals_of_mutants_are_found() {
 
 #[test]
 fn originals_of_some_mutants_are_found() {
-    let some = ["24", "42", "52", "55", "57", "66", "70", "78"];
-    let [total, first, three] = tally(&originals(3, |label| some.contains(&label)));
+    let some = ["33", "46a", "56", "64", "70", "74", "78", "79"];
+    let [total, first, three] = tally(&originals(2, |label| some.contains(&label)));
     assert!(10 * three >= 8 * total && 10 * first >= 6 * total, "{first}, {three} of {total}");
+}
+
+/// A hundred thousand mutants with one or two edits: none may be judged to hold that does not.
+#[test]
+#[ignore = "takes minutes"]
+fn no_mutant_holds_falsely() {
+    let each = std::env::var("MOST").ok().and_then(|m| m.parse().ok()).unwrap_or(2500);
+    let (book, options) = (notes(), options());
+    let begin = std::time::Instant::now();
+    let of = |index: &usize| {
+        let judgement = check::judge(&book, *index, &options);
+        let found = measure::soundness(&book, *index, &judgement, &options, each)?;
+        println!("({}) {} of {} hold falsely", judgement.label, found.refuted.len(), found.judged);
+        Some((judgement.label, found))
+    };
+    let indices: Vec<usize> = (0..book.entries.len()).filter(|k| wanted(&book.entries[*k].equation.label)).collect();
+    let all: Vec<(String, Soundness)> = indices.par_iter().filter_map(of).collect();
+    let mut counts = [0; 8];
+    for (label, s) in &all {
+        let own = [s.judged, s.killed, s.open, s.same, s.exact, s.elsewhere, s.unconfirmed.len(), s.refuted.len()];
+        println!("({label}) {own:?}");
+        s.refuted.iter().for_each(|latex| println!("      refuted {latex}"));
+        s.unconfirmed.iter().take(3).for_each(|latex| println!("      unconfirmed {latex}"));
+        counts.iter_mut().zip(own).for_each(|(sum, n)| *sum += n);
+    }
+    println!(
+        "judged, killed, open, same, exact, elsewhere, unconfirmed, refuted: {counts:?} in {:.2?}",
+        begin.elapsed()
+    );
+    assert!(all.iter().all(|(_, s)| s.refuted.is_empty()));
 }

@@ -66,6 +66,9 @@ pub enum Uncertified {
     /// Premises that do not hold.
     #[error("the premises contradict each other there")]
     Contradiction,
+    /// None is left.
+    #[error("the time is used up")]
+    Time,
     /// The sides may be equal.
     #[error("their difference cannot be told from zero with {0} bits")]
     Open(u32),
@@ -116,8 +119,11 @@ fn by_intervals(
     claimed: &Claimed,
     idle: &[SymId],
 ) -> Result<Certificate, Uncertified> {
-    let mut why = Uncertified::Open(0);
+    let mut why = Uncertified::Time;
     for bits in PRECISIONS {
+        if sampler.deadline().has_passed() {
+            break;
+        }
         match attempt(sampler, state, claimed, idle, bits) {
             // A higher precision changes nothing of these.
             Err(e @ (Uncertified::Singular | Uncertified::Contradiction | Uncertified::Dependent(_))) => return Err(e),

@@ -274,9 +274,10 @@ impl<'b> Source<'b> {
                 stated.ordered.push((clause.rel, pair.residual));
                 continue;
             }
-            stated.equal.push((pair.lhs, pair.rhs));
+            let stands = (pair.lhs, pair.rhs);
+            stated.equal.push(stands);
             let rates = in_time(world, pair).into_iter().filter(|pair| !pair.start);
-            stated.equal.extend(rates.map(|pair| (pair.lhs, pair.rhs)));
+            stated.equal.extend(rates.map(|pair| (pair.lhs, pair.rhs)).filter(|rate| *rate != stands));
         }
         Ok(())
     }

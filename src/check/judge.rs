@@ -97,8 +97,8 @@ pub fn blank(book: &Book, index: usize) -> Judgement {
         as_expected: false,
         sensitivity: None,
         suggestions: Vec::new(),
-        unfinished: None,
         lost_bits: None,
+        unfinished: None,
         micros: 0,
         problem: None,
     }

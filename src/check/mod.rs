@@ -30,6 +30,6 @@ pub mod verdict;
 
 pub use book::{Book, Entry, Formula, Unclear, Version};
 pub use judge::{Options, blank, judge, judge_tree};
-pub use random::Random;
+pub(crate) use random::Random;
 pub use screen::{STATES, Screen, Sight};
 pub use trial::{Outcome, Trial};

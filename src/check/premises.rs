@@ -124,9 +124,14 @@ impl Premises {
         let known = graph.symbols(&all);
         let t = graph.find("t");
         let mut seen: HashSet<Expr> = self.residuals.iter().copied().collect();
-        let mut queue = self.residuals.clone();
+        // Where first derivatives are defined by premises a derivative has no higher order than the residual, and would have
+        // one again, for ever.
+        let mut queue: Vec<(Expr, u32)> = self.residuals.iter().map(|r| (*r, 0)).collect();
         let mut derivatives = Vec::new();
-        while let Some(residual) = queue.pop() {
+        while let Some((residual, times)) = queue.pop() {
+            if times >= highest.max(1) {
+                continue;
+            }
             if derivatives.len() > MOST_RESIDUALS || graph.cut_short().is_some() {
                 break;
             }
@@ -135,7 +140,7 @@ impl Premises {
             let says_something = !graph.symbols(&[derivative]).is_empty();
             if says_something && order(graph, &[derivative]) <= highest && seen.insert(derivative) {
                 derivatives.push(derivative);
-                queue.push(derivative);
+                queue.push((derivative, times + 1));
             }
         }
         let unknown: Vec<Vec<SymId>> =

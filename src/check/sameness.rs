@@ -97,6 +97,19 @@ pub fn same(source: &Source, a: &Clause, b: &Clause, random: &Random) -> bool {
     compare(&mut world, &left, &right, ordered, false, random.clone())
 }
 
+/// Whether a side of a clause is 0, and the other one as well at random states of independent symbols.
+pub fn is_trivial(source: &Source, clause: &Clause, random: &Random) -> bool {
+    if !is_null(&clause.lhs) && !matches!(&clause.rhs, Side::Node(n) if is_null(n)) {
+        return false;
+    }
+    let scope = &source.book.entries[source.index].scope;
+    let mut world = World::new();
+    Elaborator::new(&mut world, scope, Vec::new(), true).build_bases();
+    let Some(own) = residuals(source, &mut world, clause) else { return false };
+    let Some(sample) = sampled(&mut world, &own, &[], random.clone()) else { return false };
+    sample.states.iter().all(|(_, own, _)| own.iter().all(is_zero))
+}
+
 /// The residuals of a clause, on both branches of a ±.
 fn residuals(source: &Source, world: &mut World, clause: &Clause) -> Option<Vec<Expr>> {
     let scope = &source.book.entries[source.index].scope;

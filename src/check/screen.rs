@@ -6,10 +6,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::expr::{Expr, Node as Op, SymId};
+use crate::expr::{Deadline, Expr, Node as Op, SymId};
 use crate::latex::ast::{Node, Rel};
 use crate::number::{Df64, Number};
-use crate::semantics::{self, Clause, Side, World};
+use crate::semantics::{self, Clause, Side};
 
 use super::book::{Book, Version};
 use super::claim::{Claim, Related, Source};
@@ -60,9 +60,16 @@ impl<'b> Screen<'b> {
         if clauses.is_empty() || !clauses.iter().all(plain) || !book.entries[index].list(|a| &a.solves).is_empty() {
             return None;
         }
-        // With all premises the states cover more symbols; that they can be solved together is not always so.
-        let attempt = |related| Screen::with_premises((book, index, version), clauses, known, options, related);
-        attempt(Related::All).or_else(|| attempt(Related::Only))
+        // With all premises the states cover more symbols; that they can be solved together is not always so. A side that
+        // makes no sense or is no number leaves the other one.
+        let attempts = [Kept::Clauses, Kept::Right, Kept::Left].into_iter().flat_map(|kept| {
+            let clauses: Vec<Clause> = clauses.iter().filter_map(|c| kept.of(c)).collect();
+            [(clauses.clone(), Related::All), (clauses, Related::Only)]
+        });
+        let attempt = |(clauses, related): (Vec<Clause>, Related)| {
+            Screen::with_premises((book, index, version), &clauses, known, options, related)
+        };
+        attempts.filter(|(clauses, _)| !clauses.is_empty()).find_map(attempt)
     }
 
     fn with_premises(
@@ -72,10 +79,9 @@ impl<'b> Screen<'b> {
         options: &Options,
         related: Related,
     ) -> Option<Self> {
-        let source = Source::new(book, index, version);
+        let source = Source::new(book, index, version).until(Deadline::after(options.budget));
         let entry = &book.entries[index];
-        let clauses: Vec<Clause> = clauses.iter().filter_map(|c| sensible(&source, c)).collect();
-        let claim = source.claim_of(&clauses, &entry.scope, known, related).ok();
+        let claim = source.claim_of(clauses, &entry.scope, known, related).ok();
         let mut claim = claim.filter(|c| c.small.is_none() && c.condition.is_none())?;
         let mut random = Random::new(options.seed, &format!("{}/screen", entry.equation.label));
         let sampler = Sampler::new(&mut claim, &mut random, &[]).ok()?;
@@ -87,35 +93,46 @@ impl<'b> Screen<'b> {
         (screen.states.len() == STATES).then_some(screen)
     }
 
+    /// When the time for looking at sides is used up.
+    pub fn deadline(&self) -> Deadline {
+        self.source.deadline
+    }
+
     /// The values of a side of a link, the left one or the right one. The other side decides its shape, where it is 0.
     pub fn side(&mut self, left: &Node, right: &Side, of_left: bool) -> Sight {
-        let rhs = right.clone();
-        let clause = Clause { lhs: left.clone(), rel: Rel::Eq, rhs, part: 1, continued: false };
-        if branches(&clause) {
-            return Sight::Elsewhere;
-        }
-        let scope = &self.source.book.entries[self.source.index].scope;
-        let Ok(link) = semantics::understand(&mut self.claim.world, scope, &clause, true) else {
-            return Sight::Senseless;
-        };
+        let Some(expressions) = self.expressions(left, right, of_left) else { return Sight::Senseless };
         let mut values = Vec::new();
-        for instance in &link.instances {
-            let side = if of_left { &instance.lhs } else { &instance.rhs };
-            for e in side.components() {
-                let e = match right {
-                    Side::Constant => {
-                        let t = self.claim.world.graph.find("t");
-                        self.claim.world.graph.time_derivative(e, t)
-                    }
-                    Side::Node(_) => e,
-                };
-                match self.row(e) {
-                    Some(row) => values.extend(row),
-                    None => return Sight::Elsewhere,
-                }
+        for e in expressions {
+            match self.row(e) {
+                Some(row) => values.extend(row),
+                None => return Sight::Elsewhere,
             }
         }
         Sight::Values(values)
+    }
+
+    /// The largest sum of the magnitudes of a side's terms.
+    pub fn size(&mut self, left: &Node, right: &Side, of_left: bool) -> Option<f64> {
+        let mut size = 0.0_f64;
+        for e in self.expressions(left, right, of_left)? {
+            let magnitude = self.claim.world.graph.magnitude(e);
+            let row = self.row(magnitude)?;
+            size = row.iter().fold(size, |m, x| m.max(x.abs()));
+        }
+        Some(size).filter(|s| s.is_finite())
+    }
+
+    /// A side's scalars: instance by instance, component by component.
+    fn expressions(&mut self, left: &Node, right: &Side, of_left: bool) -> Option<Vec<Expr>> {
+        let rhs = right.clone();
+        let clause = Clause { lhs: left.clone(), rel: Rel::Eq, rhs, part: 1, continued: false };
+        let scope = &self.source.book.entries[self.source.index].scope;
+        let world = &mut self.claim.world;
+        let link = semantics::understand(world, scope, &clause, true).ok().filter(|_| !branches(&clause))?;
+        let sides = link.instances.iter().flat_map(|i| if of_left { i.lhs.components() } else { i.rhs.components() });
+        let t = world.graph.find("t");
+        let mut rate = |e: Expr| if *right == Side::Constant { world.graph.time_derivative(e, t) } else { e };
+        Some(sides.map(&mut rate).collect())
     }
 
     /// The values of an expression by itself; vectors are given by their components.
@@ -189,16 +206,27 @@ impl<'b> Screen<'b> {
     }
 }
 
-/// The clause, or, where it makes no sense as it stands, one of its sides that does: it equals itself.
-fn sensible(source: &Source, clause: &Clause) -> Option<Clause> {
-    let scope = &source.book.entries[source.index].scope;
-    let makes_sense = |c: &Clause| semantics::understand(&mut World::new(), scope, c, true).is_ok();
-    let itself = |n: &Node| Clause { lhs: n.clone(), rhs: Side::Node(n.clone()), ..clause.clone() };
-    let right = match &clause.rhs {
-        Side::Node(n) => Some(itself(n)),
-        Side::Constant => None,
-    };
-    [Some(clause.clone()), Some(itself(&clause.lhs)), right].into_iter().flatten().find(makes_sense)
+/// What states are asked to be states of.
+#[derive(Clone, Copy)]
+enum Kept {
+    /// The clauses as they stand.
+    Clauses,
+    /// Their right sides.
+    Right,
+    /// Their left sides.
+    Left,
+}
+
+impl Kept {
+    fn of(self, clause: &Clause) -> Option<Clause> {
+        let itself = |n: &Node| Clause { lhs: n.clone(), rhs: Side::Node(n.clone()), ..clause.clone() };
+        match (self, &clause.rhs) {
+            (Kept::Clauses, _) => Some(clause.clone()),
+            (Kept::Right, Side::Node(n)) => Some(itself(n)),
+            (Kept::Right, Side::Constant) => None,
+            (Kept::Left, _) => Some(itself(&clause.lhs)),
+        }
+    }
 }
 
 /// What a symbol is.

@@ -106,7 +106,10 @@ impl System {
         let (rows, columns) = choose(world, residuals, &candidates, wish, random)?;
         let chosen: Vec<Expr> = rows.iter().map(|r| residuals[*r]).collect();
         let solved: Vec<SymId> = columns.iter().map(|c| candidates[*c]).collect();
-        let others: Vec<Expr> = (0..residuals.len()).filter(|r| !rows.contains(r)).map(|r| residuals[r]).collect();
+        // What is stated twice needs to hold once.
+        let mut others: Vec<Expr> = residuals.iter().copied().filter(|r| !chosen.contains(r)).collect();
+        others.sort_unstable();
+        others.dedup();
 
         let jacobian = world.graph.jacobian(&chosen, &solved);
         let jacobian: Vec<Expr> = jacobian.into_iter().flatten().collect();

@@ -186,13 +186,25 @@ impl<'b> Trial<'b> {
         }
     }
 
+    /// Whether a clause of a formula that the original does not have says no more than 0 = 0: a side is 0, and the other
+    /// one is whatever the premises are.
+    pub fn says_nothing(&self, tree: &Node) -> bool {
+        let Ok(statement) = self.source.book.statement_of(self.source.index, tree) else { return false };
+        let random = self.random();
+        let new = statement.clauses.iter().filter(|c| !self.statement.clauses.contains(c));
+        new.into_iter().any(|c| sameness::is_trivial(&self.source, c, &random))
+    }
+
+    fn random(&self) -> Random {
+        Random::new(self.options.seed, &self.source.book.entries[self.source.index].equation.label)
+    }
+
     fn same_clauses(&self, own: &[Clause], other: &[Clause]) -> bool {
         self.all_same(own, other) || self.all_same(&sameness::split(own), &sameness::split(other))
     }
 
     fn all_same(&self, own: &[Clause], other: &[Clause]) -> bool {
-        let label = &self.source.book.entries[self.source.index].equation.label;
-        let random = Random::new(self.options.seed, label);
+        let random = self.random();
         let same = |(a, b): (&Clause, &Clause)| a == b || sameness::same(&self.source, a, b, &random);
         own.len() == other.len() && own.iter().zip(other).all(same)
     }

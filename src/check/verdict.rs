@@ -302,6 +302,19 @@ pub struct Suggestion {
     pub latex: String,
     /// What was changed, in words.
     pub edit: String,
+    /// The printed formula in the same spelling.
+    pub printed: String,
+    /// What was changed, marked.
+    pub diff: Option<Difference>,
+}
+
+/// Two formulas with what differs marked.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Difference {
+    /// The printed one, with `[-...-]` around what goes.
+    pub printed: String,
+    /// The suggested one, with `{+...+}` around what comes.
+    pub suggested: String,
 }
 
 /// The judgement on one equation.
@@ -357,10 +370,10 @@ pub struct Judgement {
     pub sensitivity: Option<Sensitivity>,
     /// What was probably meant, where the equation fails and suggestions were asked for; the likeliest first.
     pub suggestions: Vec<Suggestion>,
-    /// Which diagnosis was asked for and cut short, and why; what there is of it is not all.
-    pub unfinished: Option<String>,
     /// What doubles lose: the mean over the links, and the worst.
     pub lost_bits: Option<LostBits>,
+    /// Which diagnosis was asked for and cut short, and why; what there is of it is not all.
+    pub unfinished: Option<String>,
     /// The time it took, in microseconds.
     pub micros: u64,
     /// What stands in the way of a verdict, with its place in the file, where no link says it.

@@ -57,17 +57,23 @@ impl Change {
     }
 }
 
-/// The tree with products within products laid flat, as they are read.
-fn flat(node: Node) -> Node {
+/// The tree with products within products laid flat, and factors of 1 left out.
+pub fn flat(node: Node) -> Node {
     let mut node = node.map_children(&mut |child| flat(child.clone()));
+    let is_one = |n: &Node| matches!(&n.kind, Kind::Number(n) if n == "1");
     if let Kind::Juxt(factors) = &node.kind
-        && factors.iter().any(|f| matches!(f.kind, Kind::Juxt(_)))
+        && factors.iter().any(|f| matches!(f.kind, Kind::Juxt(_)) || is_one(f))
     {
         let parts = factors.iter().flat_map(|f| match &f.kind {
             Kind::Juxt(inner) => inner.clone(),
             _ => vec![f.clone()],
         });
-        node.kind = Kind::Juxt(parts.collect());
+        let (ones, rest): (Vec<Node>, Vec<Node>) = parts.partition(is_one);
+        node.kind = match rest.as_slice() {
+            [] => return ones.into_iter().next().unwrap_or(node),
+            [only] => only.kind.clone(),
+            _ => Kind::Juxt(rest),
+        };
     }
     node
 }

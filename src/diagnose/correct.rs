@@ -10,20 +10,23 @@
 //! nothing and comes last; of several that say the same the cheapest is kept. All budgets count formulas and not time,
 //! so that the same notes give the same suggestions.
 
-use crate::check::verdict::{Judgement, LinkJudgement, Suggestion, Verdict};
+use std::collections::HashMap;
+
+use crate::check::verdict::{Difference, Judgement, LinkJudgement, Suggestion, Verdict};
 use crate::check::{Book, Options, Outcome, Screen, Trial, Version};
 use crate::latex::ast::{Kind, Node};
 use crate::latex::{self, to_latex};
+use crate::report::marked_words;
 use crate::semantics::{Clause, Scope, Side};
 
 use super::change::{Change, at};
 use super::edits::{Found, Walk};
 use super::lexicon::Lexicon;
 use super::likeness;
-use super::mutants::{EditKind, Reach, replaced_at};
+use super::mutants::{EditKind, LONGEST, Reach, replaced_at};
 use super::names::Name;
 use super::near::Near;
-use super::shape::times;
+use super::shape::{is_null, times};
 use super::sides::Row;
 use super::tries;
 use super::wider::wider;
@@ -34,6 +37,8 @@ pub const MOST: usize = 3;
 const CONFIRMED: usize = 48;
 /// How many guesses that hold are kept, for a row of sides.
 const HOLDING: usize = 12;
+/// How many factors with an index are put in.
+const INDEXED: usize = 8;
 /// How many formulas are tried whose sides the solved states do not cover.
 const ELSEWHERE: usize = 120;
 
@@ -53,16 +58,23 @@ pub fn suggestions(book: &Book, index: usize, judgement: &Judgement, options: &O
 /// The formulas near one that stands in the place of an equation and fails, the likeliest first. `links` is the
 /// judgement on it.
 pub fn meant(book: &Book, index: usize, tree: &Node, links: &[LinkJudgement], options: &Options) -> Vec<Suggestion> {
-    let mut printed = book.clone();
     let latex = to_latex(tree);
+    if latex.len() > LONGEST {
+        return Vec::new();
+    }
+    let mut printed = book.clone();
     printed.entries[index].reading = Some(crate::check::Formula { latex, tree: Ok(tree.clone()) });
     printed.entries[index].correction = None;
     let Some(trial) = Trial::new(&printed, index, Version::Printed, links, options) else { return Vec::new() };
     let near = Near::new(&printed, index, tree);
     let mut search = Search { book: &printed, index, tree, links, options, trial, near };
     let found = search.run();
-    let suggestion =
-        |(change, tree): (Change, Node)| Suggestion { latex: to_latex(&tree), edit: change.edits.join("; ") };
+    let before = to_latex(tree);
+    let suggestion = |(change, tree): (Change, Node)| {
+        let latex = to_latex(&tree);
+        let diff = marked_words(&before, &latex).map(|(printed, suggested)| Difference { printed, suggested });
+        Suggestion { latex, edit: change.edits.join("; "), printed: before.clone(), diff }
+    };
     found.into_iter().take(MOST).map(suggestion).collect()
 }
 
@@ -94,6 +106,10 @@ impl<'b> Search<'b> {
                 joined = tries::search(&mut self.trial, self.tree, &singles, self.links);
                 break;
             };
+            // What mends another row may mend this one, too.
+            if found.is_empty() {
+                continue;
+            }
             joined = joined.iter().flat_map(|a| found.iter().filter_map(|b| a.and(b))).collect();
             joined.sort_by_key(|c| c.cost);
             joined.truncate(4 * HOLDING);
@@ -108,19 +124,25 @@ impl<'b> Search<'b> {
 
     /// All single edits, those of a symbol also in every place at once.
     fn singles(&self) -> Vec<Change> {
-        let half: Vec<Node> = latex::parse("\\frac{1}{2}").into_iter().collect();
-        let mut walk = Walk::new(self.scope(), Reach { siblings: None, factors: &half });
+        // A factor with an index has no value of its own by which it could be found.
+        let half = latex::parse("\\frac{1}{2}").into_iter();
+        let indexed = self.near.indexed(self.scope()).take(INDEXED).cloned();
+        let factors: Vec<Node> = half.chain(indexed).collect();
+        let mut walk = Walk::new(self.scope(), Reach { siblings: None, factors: &factors });
         walk.visit(self.tree);
         let found = walk.found.into_iter().chain(wider(self.tree, self.scope(), &self.near));
         let changes: Vec<(EditKind, Change)> = found.map(|f| (f.edit.kind, self.change(f))).collect();
+        let mut same: HashMap<&[String], Vec<&Change>> = HashMap::new();
+        changes.iter().for_each(|(_, c)| same.entry(&c.edits).or_default().push(c));
         let mut all: Vec<Change> = Vec::new();
-        for (n, (kind, change)) in changes.iter().enumerate() {
-            if repeats(*kind) {
-                let same = |other: &&(EditKind, Change)| other.1.edits == change.edits;
-                let is_first = !changes[..n].iter().any(|c| same(&c));
+        for (kind, change) in &changes {
+            // Once for all that say the same, at the first of them.
+            if repeats(*kind)
+                && let Some(same) = same.remove(change.edits.as_slice())
+            {
                 let mut everywhere = change.clone();
-                everywhere.places = changes.iter().filter(same).flat_map(|c| c.1.places.clone()).collect();
-                if is_first && everywhere.places.len() > 1 {
+                everywhere.places = same.iter().flat_map(|c| c.places.clone()).collect();
+                if everywhere.places.len() > 1 {
                     everywhere.edits = vec![format!("{} throughout", change.edits.join("; "))];
                     everywhere.cost += likeness::THROUGHOUT;
                     all.push(everywhere);
@@ -223,6 +245,9 @@ impl<'b> Search<'b> {
             if found.iter().chain(&idle).any(|(_, t)| self.trial.say_the_same(t, &tree)) {
                 continue;
             }
+            if self.trial.says_nothing(&made) {
+                continue;
+            }
             let group = if self.is_idle(&change) { &mut idle } else { &mut found };
             group.push((change, tree));
         }
@@ -240,12 +265,15 @@ impl<'b> Search<'b> {
             let Some(length) = (0..path.len()).rev().find(is_sum) else { return false };
             let term = &path[..=length];
             let Some(node) = at(&made, term) else { return false };
+            let beside_null = at(&made, &path[..length]).is_some_and(|parent| {
+                matches!(parent.kind, Kind::Chain { .. }) && parent.children().into_iter().any(is_null)
+            });
+            if beside_null {
+                return false;
+            }
             let seven = Node::new(Kind::Number("7".into()), node.span.clone());
             let scaled = replaced_at(&made, term, &times(&seven, node));
-            let beside_null = at(&made, &path[..length]).is_some_and(|parent| {
-                matches!(parent.kind, Kind::Chain { .. }) && parent.children().into_iter().any(super::shape::is_null)
-            });
-            !beside_null && self.trial.judge(&scaled) == Outcome::Holds
+            self.trial.judge(&scaled) == Outcome::Holds
         })
     }
 }

@@ -1,15 +1,16 @@
 //! How good the suggestions are: the rank of the annotated correction among them, and of the original among those for
 //! its mutants.
 
+use std::collections::HashSet;
 use std::time::{Duration, Instant};
 
-use crate::check::verdict::{Judgement, Suggestion, Verdict};
+use crate::check::verdict::{Judgement, LinkJudgement, Strength, Suggestion, Verdict};
 use crate::check::{Book, Options, Outcome, Random, Trial, Version, judge_tree};
 use crate::latex::ast::Node;
 use crate::latex::{self, to_latex};
 
 use super::correct::{self, meant};
-use super::mutants::EditKind;
+use super::mutants::{EditKind, Mutant, Reach, mutants};
 use super::sensitivity::try_mutants;
 
 /// Where a formula is among the suggestions for another.
@@ -48,11 +49,7 @@ pub fn ranks_of_original(
     options: &Options,
     most: usize,
 ) -> Vec<Rank> {
-    let (version, links) = match (judgement.verdict, &judgement.correction) {
-        (Verdict::Holds | Verdict::Asymptotic, _) => (Version::Printed, &judgement.links),
-        (_, Some(correction)) => (Version::Corrected, &correction.links),
-        _ => return Vec::new(),
-    };
+    let Some((version, links)) = holding(judgement) else { return Vec::new() };
     let Some(tried) = try_mutants(book, index, judgement, options) else { return Vec::new() };
     let Some(trial) = Trial::new(book, index, version, links, options) else { return Vec::new() };
     let original = book.entries[index].formula(version).latex.clone();
@@ -74,6 +71,92 @@ pub fn ranks_of_original(
         });
     }
     ranks
+}
+
+/// What became of mutants with one or two edits under the normal check, and of those that it passes under another one.
+#[derive(Clone, Debug, Default)]
+pub struct Soundness {
+    /// The mutants that were judged.
+    pub judged: usize,
+    /// Those that fail.
+    pub killed: usize,
+    /// Those that are undecided, make no sense or only define something.
+    pub open: usize,
+    /// Those that hold and say the same as the original by a rule that does not rest on the check.
+    pub same: usize,
+    /// Those that hold otherwise, and are proved in the prime field from other random points.
+    pub exact: usize,
+    /// Those that hold otherwise, and hold at other states, too; there is no exact test for them.
+    pub elsewhere: usize,
+    /// Those that hold and at other states do not: false verdicts. The LaTeX.
+    pub refuted: Vec<String>,
+    /// Those that hold and at other states cannot be judged.
+    pub unconfirmed: Vec<String>,
+}
+
+/// Judges so many mutants of an equation that holds, all with one edit and then random ones with two. What holds is
+/// judged anew with another seed, so at other states, at four times as many, and in the prime field at other points.
+pub fn soundness(
+    book: &Book,
+    index: usize,
+    judgement: &Judgement,
+    options: &Options,
+    most: usize,
+) -> Option<Soundness> {
+    let (version, links) = holding(judgement)?;
+    let entry = &book.entries[index];
+    let tree = entry.formula(version).tree.as_ref().ok()?;
+    let mut trial = Trial::new(book, index, version, links, options)?;
+    let other = Options { seed: options.seed ^ 0x5eed, states: 4 * options.states, ..options.clone() };
+    let singles = mutants(tree, &entry.scope, Reach::MUTANTS);
+    let mut random = Random::new(options.seed, &format!("{}/soundness", judgement.label));
+    let mut result = Soundness::default();
+    let mut seen = HashSet::from([to_latex(tree)]);
+    let mut tries = 0;
+    while result.judged < most && tries < 4 * most {
+        let mutant = match singles.get(tries) {
+            Some(single) => Some(single.tree.clone()),
+            None => pair(&singles, &mut random),
+        };
+        tries += 1;
+        let Some(mutant) = mutant.filter(|m| seen.insert(to_latex(m))) else { continue };
+        result.judged += 1;
+        match trial.judge(&mutant) {
+            Outcome::Fails | Outcome::Misshapen => result.killed += 1,
+            Outcome::Definition | Outcome::Undecided | Outcome::Unclear => result.open += 1,
+            Outcome::Holds if trial.is_equivalent(&mutant) => result.same += 1,
+            Outcome::Holds => {
+                let again = judge_tree(book, index, &mutant, &other);
+                let worst = again.iter().map(|l| l.verdict).max();
+                let exact = |l: &LinkJudgement| l.verdict == Verdict::Definition || l.strength == Some(Strength::Exact);
+                match worst {
+                    Some(Verdict::Fails) => result.refuted.push(to_latex(&mutant)),
+                    Some(Verdict::Undecided | Verdict::Unreadable) | None => result.unconfirmed.push(to_latex(&mutant)),
+                    _ if again.iter().all(exact) => result.exact += 1,
+                    _ => result.elsewhere += 1,
+                }
+            }
+        }
+    }
+    Some(result)
+}
+
+/// Two random edits of a formula at once.
+fn pair(singles: &[Mutant], random: &mut Random) -> Option<Node> {
+    let mut any = || singles.get(usize::try_from(random.below(singles.len() as u64)).ok()?);
+    let (a, b) = (any()?, any()?);
+    a.with(b)
+}
+
+/// The version of an equation that holds, with its links: as printed, or else as corrected.
+fn holding(judgement: &Judgement) -> Option<(Version, &[LinkJudgement])> {
+    match (judgement.verdict, &judgement.correction) {
+        (Verdict::Holds | Verdict::Asymptotic, _) => Some((Version::Printed, &judgement.links)),
+        (_, Some(c)) if matches!(c.verdict, Verdict::Holds | Verdict::Asymptotic) => {
+            Some((Version::Corrected, &c.links))
+        }
+        _ => None,
+    }
 }
 
 /// The first of the suggestions that is a formula, or says the same.

@@ -97,7 +97,7 @@ impl Reach<'_> {
 }
 
 /// The longest formula of which mutants are made, in bytes: n places to edit make n formulas of n parts.
-const LONGEST: usize = 2000;
+pub(super) const LONGEST: usize = 2000;
 
 /// The formulas that are one edit away, no two with the same LaTeX, in the order of writing.
 pub fn mutants(tree: &Node, scope: &Scope, reach: Reach) -> Vec<Mutant> {

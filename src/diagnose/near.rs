@@ -111,6 +111,15 @@ impl Near {
         self.symbols.iter().filter(vector)
     }
 
+    /// The scalars with an index that the formula has, too.
+    pub fn indexed<'n>(&'n self, scope: &'n Scope) -> impl Iterator<Item = &'n Node> {
+        let fits = |n: &&Node| {
+            let own = indices(scope, n);
+            !own.is_empty() && own.iter().all(|l| self.letters.contains(l))
+        };
+        self.scalars(scope).filter(fits)
+    }
+
     /// The vectors, those of bases included.
     pub fn arrows<'n>(&'n self, scope: &'n Scope) -> impl Iterator<Item = &'n Node> {
         let arrow = |n: &&Node| {

@@ -12,7 +12,7 @@ use crate::latex::ast::{Kind, Node, Sign, Term};
 use crate::latex::to_latex;
 use crate::semantics::{Clause, Side};
 
-use super::change::{Change, Path, at};
+use super::change::{Change, Path, at, flat};
 use super::lexicon::{Lexicon, slots};
 use super::likeness;
 use super::mutants::replaced_at;
@@ -21,11 +21,13 @@ use super::shape::group;
 /// How near two values must be, relative to the largest of the sides.
 const NEAR: f64 = 1e-9;
 /// How many variants of a side are continued by filling holes in them.
-const CONTINUED: usize = 120;
+const CONTINUED: usize = 80;
 /// How many pairs of edits in one product are tried.
-const PAIRS: usize = 3000;
+const PAIRS: usize = 1500;
 /// How many of the edits that make sense of a side are continued.
 const MAKING_SENSE: usize = 4;
+/// The most pairs of edits that are looked at for each side.
+const MOST_PAIRS: usize = 200_000;
 /// How many of the variants of one value are kept for each side, where several sides are edited.
 const KEPT: usize = 4;
 /// How many are kept where one side is edited.
@@ -59,7 +61,7 @@ pub struct Row<'s, 'b> {
     clauses: Vec<Clause>,
     sides: Vec<Printed>,
     variants: Vec<Variant>,
-    /// The size of the sides' values.
+    /// The size of the sides' terms.
     scale: f64,
     /// How many values each side has.
     length: usize,
@@ -91,16 +93,15 @@ impl<'s, 'b> Row<'s, 'b> {
         for (node, clause, left) in nodes {
             let path = (!(left && first.continued)).then(|| find(tree, &node, &mut from)).flatten();
             let values = match row.evaluate(clause, left, &node) {
-                Sight::Values(values) => Some(values),
-                Sight::Senseless => None,
+                Sight::Values(values) if values.iter().all(|x| x.is_finite()) => Some(values),
+                Sight::Values(_) | Sight::Senseless => None,
                 Sight::Elsewhere => return None,
             };
             row.sides.push(Printed { path, node, clause, left, values });
         }
         let known = row.sides.iter().filter_map(|s| s.values.as_ref());
-        row.scale = known.clone().flatten().fold(0.0_f64, |m, x| m.max(x.abs()));
         let lengths: HashSet<usize> = known.map(Vec::len).collect();
-        if lengths.len() != 1 || !row.scale.is_finite() {
+        if lengths.len() != 1 {
             return None;
         }
         row.length = lengths.into_iter().next()?;
@@ -111,6 +112,7 @@ impl<'s, 'b> Row<'s, 'b> {
         }
         for k in 0..row.sides.len() {
             if let Some(values) = row.sides[k].values.clone() {
+                row.measure(k, &row.sides[k].node.clone());
                 row.add(k, Change::default(), row.sides[k].node.clone(), values);
             }
         }
@@ -125,10 +127,21 @@ impl<'s, 'b> Row<'s, 'b> {
         }
     }
 
+    /// Takes the size of a side's terms into account.
+    fn measure(&mut self, side: usize, node: &Node) {
+        let Printed { clause, left, .. } = self.sides[side];
+        let clause = &self.clauses[clause];
+        let size = match left {
+            true => self.screen.size(node, &clause.rhs, true),
+            false => self.screen.size(&clause.lhs, &Side::Node(node.clone()), false),
+        };
+        self.scale = self.scale.max(size.unwrap_or(0.0));
+    }
+
     fn add(&mut self, side: usize, change: Change, node: Node, values: Vec<f64>) {
         if self.scale == 0.0 {
             // Where 0 is all that is printed, the first formula that is not shows the size.
-            self.scale = values.iter().fold(0.0_f64, |m, x| m.max(x.abs()));
+            self.measure(side, &node);
         }
         let key = key(&values);
         if key.is_finite() {
@@ -138,6 +151,7 @@ impl<'s, 'b> Row<'s, 'b> {
 
     /// Evaluates a variant of a side and keeps it, if it is new.
     fn try_variant(&mut self, side: usize, change: Change, node: Node) {
+        let node = flat(node);
         if !self.seen.insert((side, to_latex(&node))) {
             return;
         }
@@ -153,7 +167,8 @@ impl<'s, 'b> Row<'s, 'b> {
 
     /// Enters changes of the formula that lie within one side.
     pub fn enter(&mut self, changes: &[Change]) {
-        for change in changes {
+        let deadline = self.screen.deadline();
+        for change in changes.iter().take_while(|_| !deadline.has_passed()) {
             let Some(side) = self.side_of(change) else { continue };
             let Some(prefix) = self.sides[side].path.clone() else { continue };
             let places = change.places.iter();
@@ -222,7 +237,8 @@ impl<'s, 'b> Row<'s, 'b> {
     fn fill_side(&mut self, lexicon: &Lexicon, side: usize, change: &Change, node: &Node, values: &[f64]) {
         let Some(place) = self.sides[side].path.clone() else { return };
         let targets: Vec<Vec<f64>> = self.targets().into_iter().filter(|t| !self.equal(t, values)).collect();
-        for slot in slots(node) {
+        let deadline = self.screen.deadline();
+        for slot in slots(node).into_iter().take_while(|_| !deadline.has_passed()) {
             let Some(old) = at(node, &slot.path).cloned() else { continue };
             let mut found: Vec<(Node, String, u32)> = Vec::new();
             for wanted in self.solved(side, node, &slot.path, values, &targets, &doubled(&old)) {
@@ -333,11 +349,14 @@ impl<'s, 'b> Row<'s, 'b> {
                     let hits = order[from.min(order.len())..]
                         .iter()
                         .take_while(|b| self.variants[**b].key <= rest + tolerance);
-                    pairs.extend(hits.map(|b| (*a, *b)));
+                    // Where very many edits change a side alike, they say little.
+                    let room = MOST_PAIRS.saturating_sub(pairs.len());
+                    pairs.extend(hits.map(|b| (*a, *b)).take(room));
                 }
             }
             pairs.extend(self.close_pairs(side, &order));
-            for (a, b) in pairs {
+            let deadline = self.screen.deadline();
+            for (a, b) in pairs.into_iter().take_while(|_| !deadline.has_passed()) {
                 let Some(mut both) = self.variants[a].change.and(&self.variants[b].change) else { continue };
                 both.cost += likeness::FURTHER;
                 let places = both.places.iter();
@@ -353,7 +372,8 @@ impl<'s, 'b> Row<'s, 'b> {
         let root = &self.sides[side];
         let Some(prefix) = &root.path else { return Vec::new() };
         let mut pairs: Vec<(u32, usize, usize)> = Vec::new();
-        for (n, a) in order.iter().enumerate() {
+        let deadline = self.screen.deadline();
+        for (n, a) in order.iter().enumerate().take_while(|_| !deadline.has_passed()) {
             for b in &order[n + 1..] {
                 let (x, y) = (&self.variants[*a].change, &self.variants[*b].change);
                 let Some(((p, _), (q, _))) = x.places.first().zip(y.places.first()) else { continue };

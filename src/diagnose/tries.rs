@@ -13,9 +13,9 @@ use super::names::Name;
 use super::near::Near;
 
 /// How many formulas are tried in all.
-const BUDGET: usize = 1200;
+const BUDGET: usize = 600;
 /// How many edits that mend links one by one are made.
-const DEPTH: usize = 3;
+const DEPTH: usize = 2;
 /// The cost up to which an edit is likely enough for pairs to be tried.
 const LIKELY: u32 = 3;
 /// How many factors may be put in.

@@ -27,7 +27,7 @@ struct Wider<'s> {
     scope: &'s Scope,
     near: &'s Near,
     path: Path,
-    /// Whether the node at hand is a side of a relation.
+    /// Whether the node at hand is a side of a relation or a cell of a matrix.
     alone: bool,
     found: Vec<Found>,
 }
@@ -57,12 +57,16 @@ impl Wider<'_> {
                 let text = format!("`\\{name}` changed to `\\tan`");
                 self.edit(EditKind::Function, node, Node::new(Kind::Function("tan".into()), node.span.clone()), text);
             }
+            Kind::Number(n) if n == "1" && self.alone => {
+                let null = Node::new(Kind::Number("0".into()), node.span.clone());
+                self.edit(EditKind::Number, node, null, "the number 1 changed to `0`".to_owned());
+            }
             Kind::Text(_) => return,
             _ => {}
         }
         for (k, child) in node.children().into_iter().enumerate() {
             self.path.push(k);
-            self.alone = matches!(node.kind, Kind::Chain { .. });
+            self.alone = matches!(node.kind, Kind::Chain { .. } | Kind::Matrix { .. });
             self.visit(child);
             self.path.pop();
         }

@@ -21,14 +21,20 @@ struct Item<'a> {
 /// Both sources with what differs marked (see [`math::marked`]), or `None` where nothing could be compared: the nesting
 /// is broken, or the sources too large.
 pub(super) fn mark(before: &str, after: &str) -> Option<(String, String)> {
-    mark_by(before, after, math::marked)
+    mark_by(before, after, [math::marked, math::marked])
 }
 
-fn mark_by(before: &str, after: &str, by: fn(&str) -> String) -> Option<(String, String)> {
+/// Both sources with what differs marked as by `git diff --word-diff`: `[-removed-]` in the first, `{+inserted+}` in the
+/// second. `None` where nothing could be compared.
+pub fn words(before: &str, after: &str) -> Option<(String, String)> {
+    mark_by(before, after, [|part| format!("[-{part}-]"), |part| format!("{{+{part}+}}")])
+}
+
+fn mark_by(before: &str, after: &str, by: [fn(&str) -> String; 2]) -> Option<(String, String)> {
     let (left, right) = (items(before)?, items(after)?);
     let mut changes = Changes::default();
     compare(&left, &right, &mut changes)?;
-    Some((with_marks(before, changes.left, by), with_marks(after, changes.right, by)))
+    Some((with_marks(before, changes.left, by[0]), with_marks(after, changes.right, by[1])))
 }
 
 /// A changed range of bytes, and the number of the list it stands in: only neighbours in one list are marked as one. A
@@ -237,9 +243,15 @@ mod tests {
             (r"a + b c d", r"a + e", r"a + [b c d]", r"a + [e]"),
             (r"\frac{mgl}{I_1}", r"\frac{mgl}{I_1 \Omega}", r"\frac{mgl}{I_1}", r"\frac{mgl}{I_1 [\Omega]}"),
         ] {
-            let marked = mark_by(before, after, |part| format!("[{part}]")).unwrap();
+            let marked = mark_by(before, after, [|part| format!("[{part}]"); 2]).unwrap();
             assert_eq!(marked, (left.into(), right.into()));
         }
+    }
+
+    #[test]
+    fn words_are_marked_for_the_terminal() {
+        let marked = words(r"a = \frac{b}{c} \sin x", r"a = \frac{b}{c^2} \cos x").unwrap();
+        assert_eq!(marked, (r"a = \frac{b}{c} [-\sin-] x".into(), r"a = \frac{b}{c^{+2+}} {+\cos+} x".into()));
     }
 
     #[test]

@@ -66,8 +66,8 @@ pub(super) fn judgement(label: &str, kind: &str, link: LinkJudgement) -> Judgeme
         as_expected: true,
         sensitivity: None,
         suggestions: Vec::new(),
-        unfinished: None,
         lost_bits: None,
+        unfinished: None,
         micros: 118,
         problem: None,
     }

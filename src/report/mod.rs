@@ -21,6 +21,7 @@ mod write;
 
 pub use charts::Chart;
 pub use counts::Counts;
+pub use diff::words as marked_words;
 
 use crate::check::verdict::DocumentReport;
 use std::path::{Path, PathBuf};
@@ -97,12 +98,11 @@ pub enum ReportError {
 
 /// Writes `report.html` and `report.json` into the directory `out`, which is created if need be.
 ///
-/// See [`write`](mod@write) for what this promises.
+/// Whenever the process ends, each of them is whole: the new one or the one before.
 ///
 /// # Errors
 /// [`ReportError`]
-pub fn write(run: &Run, out: &Path) -> Result<Written, ReportError> {
-    let options = Options::default();
+pub fn write(run: &Run, out: &Path, options: Options) -> Result<Written, ReportError> {
     let (html, json) = (html::render(run, options)?, json::render(run, options)?);
     write::pair(out, &html, &json)
 }

@@ -107,7 +107,13 @@ fn line(text: &mut String, document: &DocumentReport, j: &Judgement, paint: Pain
         writeln!(text, "      dimensions: {}", one_line(&finding.message))?;
     }
     for suggestion in &j.suggestions {
-        writeln!(text, "      perhaps  {}  ({})", one_line(&suggestion.latex), one_line(&suggestion.edit))?;
+        writeln!(text, "      perhaps: {}", one_line(&suggestion.edit))?;
+        if let Some(diff) = &suggestion.diff {
+            writeln!(text, "        - {}", one_line(&diff.printed))?;
+            writeln!(text, "        + {}", one_line(&diff.suggested))?;
+        } else {
+            writeln!(text, "        + {}", one_line(&suggestion.latex))?;
+        }
     }
     Ok(())
 }

@@ -133,7 +133,7 @@ fn reports_replace_older_ones_and_leave_nothing_beside() {
     let mut run = fixture::run();
     for seed in [1, 2] {
         run.seed = seed;
-        let written = write(&run, &out).unwrap();
+        let written = write(&run, &out, Options::default()).unwrap();
         let json: serde_json::Value = serde_json::from_str(&std::fs::read_to_string(written.json).unwrap()).unwrap();
         assert_eq!(json["seed"], seed);
         assert!(std::fs::read_to_string(written.html).unwrap().contains(&format!("seed {seed}")));
@@ -146,7 +146,7 @@ fn reports_replace_older_ones_and_leave_nothing_beside() {
 fn a_directory_that_cannot_be_is_an_error_with_its_path() {
     let file = std::env::temp_dir().join(format!("kenzan-file-{}", std::process::id()));
     std::fs::write(&file, "").unwrap();
-    let error = write(&fixture::run(), &file).unwrap_err();
+    let error = write(&fixture::run(), &file, Options::default()).unwrap_err();
     std::fs::remove_file(&file).unwrap();
     assert!(matches!(&error, ReportError::Directory { path, .. } if *path == file), "{error}");
 }

@@ -1,5 +1,6 @@
 //! The diagnosis for the templates: sensitivity, survivors, suggestions.
 
+use super::diff;
 use super::math::Renderer;
 use crate::check::verdict::{Judgement, Sensitivity};
 use serde::Serialize;
@@ -7,6 +8,9 @@ use serde::Serialize;
 /// A formula that was probably meant.
 #[derive(Clone, Serialize)]
 pub(super) struct SuggestionView {
+    /// The printed formula, with what goes marked.
+    printed_html: String,
+    /// The suggested formula, with what comes marked.
     math_html: String,
     edit_html: String,
     latex: String,
@@ -24,10 +28,12 @@ pub(super) struct Diagnosis {
 pub(super) fn view(j: &Judgement, renderer: &Renderer) -> Diagnosis {
     let words = |edit: &String| renderer.prose(&edit.replace('`', "$"));
     let survivors = j.sensitivity.iter().flat_map(|s| &s.survivors);
-    let suggestion = |s: &crate::check::verdict::Suggestion| SuggestionView {
-        math_html: renderer.display(&s.latex),
-        edit_html: words(&s.edit),
-        latex: s.latex.clone(),
+    let suggestion = |s: &crate::check::verdict::Suggestion| {
+        let marks = diff::mark(&s.printed, &s.latex)
+            .and_then(|(before, after)| Some((renderer.marked(&before)?, renderer.marked(&after)?)));
+        let (printed_html, math_html) =
+            marks.unwrap_or_else(|| (renderer.display(&s.printed), renderer.display(&s.latex)));
+        SuggestionView { printed_html, math_html, edit_html: words(&s.edit), latex: s.latex.clone() }
     };
     Diagnosis {
         sensitivity: j.sensitivity.as_ref().map(sentence),

@@ -3,7 +3,7 @@
 use crate::expr::{Expr, Graph};
 use crate::latex::ast::{BigOp, Font, Kind, Node, Rel, Span};
 
-use super::elaborate::{Elaborator, Typed};
+use super::elaborate::{Elaborator, MOST_ALIASES, Typed};
 use super::error::{Error, Result};
 use super::juxtaposition::Item;
 use super::name::spelling;
@@ -55,22 +55,29 @@ impl Elaborator<'_> {
         let mut text = inner.text;
         for variable in &derivative.variables {
             let name = spelling(variable);
-            if name == "t" {
+            if let Some(variables) = several(variable) {
+                // By several variables: the tuple of the derivatives by each.
+                let each = variables.iter().map(|x| self.partial(&value, x, span)).collect::<Result<_>>()?;
+                value = Value::Tuple(each);
+            } else if name == "t" {
                 value = self.time_derivative(&value, 1);
             } else {
-                let x = self.value(variable)?;
-                let x = self.scalar(&x, span)?;
-                let crate::expr::Node::Symbol(id) = *self.world.graph.node(x) else {
-                    return Err(Error::unsupported(
-                        format!("a derivative with respect to {name}, which is no symbol"),
-                        span,
-                    ));
-                };
-                value = value.map(&mut |e| self.world.graph.diff(e, id));
+                value = self.partial(&value, variable, span)?;
             }
             text = format!("d/d{name}({text})");
         }
         Ok(Typed::new(value, text))
+    }
+
+    /// The partial derivative of a value by a symbol.
+    fn partial(&mut self, value: &Value, variable: &Node, span: &Span) -> Result<Value> {
+        let x = self.value(variable)?;
+        let x = self.scalar(&x, span)?;
+        let crate::expr::Node::Symbol(id) = *self.world.graph.node(x) else {
+            let name = spelling(variable);
+            return Err(Error::unsupported(format!("a derivative with respect to {name}, which is no symbol"), span));
+        };
+        Ok(value.map(&mut |e| self.world.graph.diff(e, id)))
     }
 
     /// The n-th derivative with respect to time.
@@ -322,8 +329,11 @@ impl Elaborator<'_> {
                 }
             }
             self.collect_letters(node, bound, found);
-            if let EntryKind::Same(other) = &entry.kind {
+            let depth = self.aliases.get();
+            if let (EntryKind::Same(other), true) = (&entry.kind, depth < MOST_ALIASES) {
+                self.aliases.set(depth + 1);
                 self.collect_indices(other, bound, found);
+                self.aliases.set(depth);
             }
             return;
         }
@@ -338,7 +348,10 @@ impl Elaborator<'_> {
                     return self.collect_indices(sup, bound, found);
                 }
                 None => {
-                    self.collect_indices(base, bound, found);
+                    // A letter with a script is a name of its own, unless the script means a component.
+                    if matches!(base.kind, Kind::Group { .. }) || self.scope.axis(&spelling(sub)).is_some() {
+                        self.collect_indices(base, bound, found);
+                    }
                     return self.collect_letters(sub, bound, found);
                 }
             }
@@ -439,6 +452,15 @@ fn numerator(num: &Node) -> Option<(usize, Option<Vec<Node>>)> {
             Some((order, Some(operand)))
         }
         _ => Some((power(num)?, None)),
+    }
+}
+
+/// The variables of a derivative by a tuple, `\frac{\partial F}{\partial(x, y)}`.
+fn several(variable: &Node) -> Option<&[Node]> {
+    match &variable.kind {
+        Kind::Group { body, .. } => several(body),
+        Kind::List(items) => Some(items),
+        _ => None,
     }
 }
 

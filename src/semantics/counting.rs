@@ -4,8 +4,11 @@ use crate::expr::Expr;
 use crate::latex::ast::{Kind, Node};
 
 use super::elaborate::{Elaborator, Typed};
-use super::error::Result;
+use super::error::{Error, Result};
 use super::value::Value;
+
+/// The most that are chosen: each is a factor.
+const MOST_CHOSEN: i64 = 100;
 
 impl Elaborator<'_> {
     /// `{}_n C_k`, the number of ways to choose k of n; `None` where the factors are something else.
@@ -13,10 +16,15 @@ impl Elaborator<'_> {
         let (Some(n), Some(k)) = (before(first), of_c(second)) else { return Ok(None) };
         let from = self.value(n)?;
         let from = self.scalar(&from, &n.span)?;
+        let k_span = k.span.clone();
         let k = self.integer(k)?;
+        if !(0..=MOST_CHOSEN).contains(&k) {
+            let message = format!("{k} of so many are not chosen: only 0 to {MOST_CHOSEN}");
+            return Err(Error::limit(message, &k_span));
+        }
         let graph = &mut self.world.graph;
         let mut ways = graph.int(1);
-        for j in 0..k.clamp(0, 100) {
+        for j in 0..k {
             // n (n - 1) .. (n - k + 1) / k!, for any n.
             let (j, next): (Expr, Expr) = (graph.int(j), graph.int(j + 1));
             let left = graph.sub(from, j);

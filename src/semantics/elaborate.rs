@@ -1,5 +1,7 @@
 //! From syntax to typed values: symbols, scripts, brackets, sums of terms.
 
+use std::cell::Cell;
+
 use crate::expr::{Expr, Func, SymId};
 use crate::latex::ast::{Delim, Kind, MatrixEnv, Node, Sign, Span, Term};
 use crate::latex::to_latex;
@@ -15,7 +17,7 @@ use super::world::{Facts, Joint, Quantity, Role, World};
 const LONGEST_TEXT: usize = 4000;
 
 /// How many names may stand for each other one after another.
-const MOST_ALIASES: usize = 20;
+pub(super) const MOST_ALIASES: usize = 20;
 
 /// A value with the way it was read, every operation in brackets.
 #[derive(Clone, Debug)]
@@ -48,13 +50,13 @@ pub struct Elaborator<'w> {
     /// Whether ± means +, for a formula with branches.
     pub(super) upper: bool,
     /// How many names stand for names here.
-    aliases: usize,
+    pub(super) aliases: Cell<usize>,
 }
 
 impl<'w> Elaborator<'w> {
     /// An elaborator with the given indices fixed, on the upper or lower branch of ±.
     pub fn new(world: &'w mut World, scope: &'w Scope, indices: Vec<(String, i64)>, upper: bool) -> Self {
-        Elaborator { world, scope, indices, upper, aliases: 0 }
+        Elaborator { world, scope, indices, upper, aliases: Cell::new(0) }
     }
 
     /// The value of an expression.
@@ -397,14 +399,15 @@ impl<'w> Elaborator<'w> {
 
     /// What a name stands for, which may be a name that stands for something.
     fn alias(&mut self, name: &str, other: &Node, span: &Span) -> Result<Typed> {
-        if self.aliases >= MOST_ALIASES {
+        let depth = self.aliases.get();
+        if depth >= MOST_ALIASES {
             let message =
                 format!("{name} stands for a name that stands for a name, and so on for {MOST_ALIASES} times");
             return Err(Error::unsupported(message, span).with_help("do the declarations with `same` go in a circle?"));
         }
-        self.aliases += 1;
+        self.aliases.set(depth + 1);
         let value = self.value(other);
-        self.aliases -= 1;
+        self.aliases.set(depth);
         value
     }
 

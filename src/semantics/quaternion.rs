@@ -156,7 +156,7 @@ mod tests {
         let symbols: Vec<_> = world.graph.symbols(&[a.clone(), b.clone()].concat()).into_iter().collect();
         let inputs: std::collections::HashMap<_, _> =
             symbols.iter().enumerate().map(|(k, s)| (*s, 0.3 + 0.7 * (k as f64 * 1.7).sin())).collect();
-        let mut at = |es: &[Expr]| -> Vec<f64> {
+        let at = |es: &[Expr]| -> Vec<f64> {
             let tape = crate::expr::Tape::compile(&world.graph, es);
             let inputs: Vec<f64> = tape.inputs().iter().map(|s| inputs[s]).collect();
             tape.eval(&inputs, &(), &mut crate::expr::Workspace::default()).to_vec()

@@ -7,6 +7,7 @@ use crate::document::{Arguments, BasisDeclaration, Declarations, Problem, Spanne
 use crate::latex;
 use crate::latex::ast::{Kind, Node};
 
+use super::elaborate::MOST_ALIASES;
 use super::name::{nearest, spelling, spelling_with};
 use super::units::{self, Dimension};
 
@@ -263,7 +264,16 @@ impl Scope {
             found.insert(pattern);
             return;
         }
-        node.children().into_iter().for_each(|child| self.collect_names(child, found));
+        match &node.kind {
+            // Names that are not declared yet.
+            Kind::Accent(..) | Kind::Styled(..) => {}
+            Kind::Scripts { base, sub: Some(sub), .. } => {
+                if matches!(base.kind, Kind::Group { .. }) || self.axis(&spelling(sub)).is_some() {
+                    self.collect_names(base, found);
+                }
+            }
+            _ => node.children().into_iter().for_each(|child| self.collect_names(child, found)),
+        }
     }
 
     /// Whether what a name stands for leads back to it.
@@ -276,6 +286,10 @@ impl Scope {
             let mut names = HashSet::new();
             self.collect_names(node, &mut names);
             queue.extend(names.into_iter().filter(|name| found.insert(name.clone())));
+            // What goes on for so long is refused where it is used.
+            if found.len() > MOST_ALIASES {
+                break;
+            }
         }
         found.contains(pattern)
     }

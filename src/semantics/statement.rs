@@ -173,11 +173,12 @@ pub fn begins_with_relation(node: &Node) -> bool {
     }
 }
 
-/// Collects the patterns of the declared symbols that a formula mentions.
+/// Collects the patterns of the declared symbols that a formula mentions; the letters within a name are none.
 pub fn mentions(scope: &Scope, node: &Node, found: &mut std::collections::HashSet<String>) {
     let pattern = super::scope::pattern_of(scope, node);
     if scope.get(&pattern).is_some() {
         found.insert(pattern);
+        return;
     }
     // In `I_1^2` stands `I_1`.
     if let Kind::Scripts { base, primes, sub: Some(sub), sup: Some(_) } = &node.kind {

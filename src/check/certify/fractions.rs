@@ -33,7 +33,8 @@ const BITS: u32 = 64;
 /// A certificate in fractions, at a state near a given one.
 pub fn certificate(sampler: &Sampler, state: &State, claimed: &Claimed, idle: &[SymId]) -> Option<Certificate> {
     let exact = Exact::new(sampler);
-    DENOMINATORS.iter().find_map(|d| exact.attempt(state, claimed, idle, *d))
+    let time_is_left = |_: &&u32| !sampler.deadline().has_passed();
+    DENOMINATORS.iter().take_while(time_is_left).find_map(|d| exact.attempt(state, claimed, idle, *d))
 }
 
 /// The value of an expression.
