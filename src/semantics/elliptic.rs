@@ -235,7 +235,7 @@ modulus = 'k'
         for (latex, text) in [
             (r"\operatorname{sn}^2 u", "sn(u, k)^2"),
             (r"\text{cn}^2 u", "cn(u, k)^2"),
-            (r"\text{cn} 2u t", "(t * cn((2 * u), k))"),
+            (r"\text{cn} 2u t", "(cn((2 * u), k) * t)"),
             (r"\operatorname{dn}(v, q)", "dn(v, q)"),
             (r"t \operatorname{nd} u", "(t * (1 / dn(u, k)))"),
             (r"\operatorname{sd}u", "(sn(u, k) / dn(u, k))"),
