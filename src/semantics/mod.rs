@@ -18,6 +18,7 @@ mod geometric;
 mod juxtaposition;
 mod motion;
 mod name;
+mod power;
 mod quaternion;
 mod scope;
 mod statement;
