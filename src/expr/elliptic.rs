@@ -8,8 +8,8 @@ use crate::number::elliptic::{Elliptic, MOST_ARGUMENTS, Rules, slope};
 const POSITIONS: [usize; MOST_ARGUMENTS] = [0, 1, 2, 3];
 
 impl Graph {
-    /// An elliptic function or integral of as many operands as it has; those that are missing are the last one again, or
-    /// zero. Folded at the argument 0 and, where elementary functions remain, at the moduli 0 and 1.
+    /// An elliptic function or integral of as many operands as it has; those that are missing are the last one again,
+    /// or zero. Folded at the argument 0 and, where elementary functions remain, at the moduli 0 and 1.
     pub fn elliptic(&mut self, f: Elliptic, x: &[Expr]) -> Expr {
         let zero = self.int(0);
         let last = x.get(..f.arity()).unwrap_or(x).last().copied().unwrap_or(zero);

@@ -3,9 +3,10 @@
 //! With x = tanh(π/2 sinh t) the integrand falls doubly exponentially in t, also where it is singular at an end, and
 //! the trapezoidal rule in t doubles its digits with each halving of the step.
 //!
-//! Promise: the error of a finite result is below its estimate, for integrands that are analytic within the interval (singular at its
-//! ends if need be, as long as they can be integrated), that are computed to some units of their last place, and that the coarsest steps see
-//! something of: nothing that samples an integrand notices a peak between its samples. The estimate is the sum of
+//! Promise: the error of a finite result is below its estimate, for integrands that are analytic within the interval
+//! (singular at its ends if need be, as long as they can be integrated), that are computed to some units of their last
+//! place, and that the coarsest steps see something of: nothing that samples an integrand notices a peak between its
+//! samples. The estimate is the sum of
 //!
 //! - the step's: the last difference between two steps, or what the differences before let expect, if that is more;
 //! - the ends': what is left out beyond the last samples;
@@ -68,8 +69,8 @@ pub fn integrate<N: Real>(a: &N, b: &N, levels: u32, mut f: impl FnMut(&Sample<N
     Integral { value, error_log2, samples: sums.samples }
 }
 
-/// What the differences between steps let expect of the error of the last one: their last, or that which goes on as the two
-/// before it did, if it is more. Agreement by chance does not come twice.
+/// What the differences between steps let expect of the error of the last one: their last, or that which goes on as the
+/// two before it did, if it is more. Agreement by chance does not come twice.
 fn step_error(differences: &[f64]) -> f64 {
     match *differences {
         [.., a, b, c] if a > 0.0 => c.max((b / a).min(1.0) * b),

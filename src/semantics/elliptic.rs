@@ -1,13 +1,15 @@
 //! Elliptic functions as lecture notes print them.
 //!
 //! - Jacobi's functions sn, cn, dn, am, and Glaisher's quotients of the first three (nd, sd, tn = sn/cn, ...), in
-//!   `\operatorname{sn}`, `\mathrm{sn}`, `\text{sn}` or plain letters, where those are no symbols: `\operatorname{sn}^2 u`,
-//!   `\text{cn}u`, `\mathrm{sn}(u, k)`.
-//! - Legendre's integrals `\operatorname{K}`, `\operatorname{E}`, `\operatorname{F}`, `\operatorname{Pi}`, complete or incomplete by the number of their
-//!   arguments. Letters mean them where they are declared to: `'K' = { same = '\operatorname{K}' }`.
+//!   `\operatorname{sn}`, `\mathrm{sn}`, `\text{sn}` or plain letters, where those are no symbols: `\operatorname{sn}^2
+//!   u`, `\text{cn}u`, `\mathrm{sn}(u, k)`.
+//! - Legendre's integrals `\operatorname{K}`, `\operatorname{E}`, `\operatorname{F}`, `\operatorname{Pi}`, complete or
+//!   incomplete by the number of their arguments. Letters mean them where they are declared to: `'K' = { same =
+//!   '\operatorname{K}' }`.
 //!
-//! Without a bracket, Jacobi's functions take one factor and the numbers before it: `\operatorname{sn} 2u \operatorname{cn} u \dot{u}` is sn(2u) cn(u) u̇.
-//! The last argument is the modulus k. Where it is not printed it is what the section declares: `modulus = 'k'`, any formula.
+//! Without a bracket, Jacobi's functions take one factor and the numbers before it: `\operatorname{sn} 2u
+//! \operatorname{cn} u \dot{u}` is sn(2u) cn(u) u̇. The last argument is the modulus k. Where it is not printed it is
+//! what the section declares: `modulus = 'k'`, any formula.
 
 use crate::expr::{Elliptic, Expr};
 use crate::latex::ast::{Font, Kind, Node};
@@ -85,8 +87,8 @@ pub(super) fn is_name(node: &Node) -> bool {
 }
 
 impl Elaborator<'_> {
-    /// An elliptic function at the head of these items with its arguments, and how many items they are; none where there is
-    /// no such function.
+    /// An elliptic function at the head of these items with its arguments, and how many items they are; none where
+    /// there is no such function.
     pub(super) fn elliptic(&mut self, items: &[Item]) -> Result<Option<(Typed, usize)>> {
         let Some((named, power, length)) = self.elliptic_name(items) else { return Ok(None) };
         let rest = &items[length..];

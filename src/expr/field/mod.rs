@@ -12,9 +12,9 @@
 //! - A square root has both signs: a statement is tested with every choice of signs, and holds only if it does with all.
 //!   Then the coefficients of all products of roots vanish, whichever roots depend on each other.
 //! - π is a variable, since it is transcendental, but for the exact rotations by whole and half multiples of it.
-//! - sn, cn and dn of the same argument and modulus are a random point of the curve sn² + cn² = 1, dn² = 1 - k² sn²: again more
-//!   freely than they are, since sn is independent of u and k. The root dn is the one that is a square; the other one is its conjugate, so that what
-//!   vanishes with one does with both.
+//! - sn, cn and dn of the same argument and modulus are a random point of the curve sn² + cn² = 1, dn² = 1 - k² sn²:
+//!   again more freely than they are, since sn is independent of u and k. The root dn is the one that is a square; the
+//!   other one is its conjugate, so that what vanishes with one does with both.
 //! - Anything else (exp, ln, |x|, inverse functions, powers with variable exponents, e) is a variable of its own for each
 //!   argument. Identities hold a fortiori, but that they fail says nothing: see [`Field::meaningless`].
 //!

@@ -1,5 +1,5 @@
-//! The arithmetic that the algorithms of this folder need: that of algebra, and π. Whatever has it can run them: numbers
-//! with guard digits for a value, and [`Spread`]s for how far the errors of operands carry.
+//! The arithmetic that the algorithms of this folder need: that of algebra, and π. Whatever has it can run them:
+//! numbers with guard digits for a value, and [`Spread`]s for how far the errors of operands carry.
 
 use super::super::Number;
 

@@ -1,16 +1,16 @@
 //! Carlson's symmetric integrals by duplication: B. C. Carlson, "Numerical computation of real or complex elliptic
 //! integrals", Numer. Algorithms 10 (1995) 13-26; DLMF 19.36(i), with the expansions up to the seventh degree.
 //!
-//! Each duplication brings the arguments four times nearer to each other, and no step subtracts: what the arguments' own
-//! precision allows is kept.
+//! Each duplication brings the arguments four times nearer to each other, and no step subtracts: what the arguments'
+//! own precision allows is kept.
 
 use super::arithmetic::Arithmetic;
 
 /// Doublings that no arguments of a practical size need, beyond those that the precision asks for.
 const EXTRA_STEPS: u32 = 4000;
 
-/// Whether arguments that were at most `2^spread` from their mean are near enough to it after `step` duplications for an
-/// expansion whose error is of the eighth order.
+/// Whether arguments that were at most `2^spread` from their mean are near enough to it after `step` duplications for
+/// an expansion whose error is of the eighth order.
 fn is_near<W: Arithmetic>(mean: &W, spread: f64, step: u32) -> bool {
     spread - 2.0 * f64::from(step) <= mean.log2_size() - f64::from(mean.bits()) / 8.0 - 1.0
 }
@@ -35,11 +35,16 @@ fn sign<W: Arithmetic>(x: &W) -> f64 {
     if x.log2_size() == f64::NEG_INFINITY { 0.0 } else { x.approx() }
 }
 
+/// Whether the first three arguments are not negative, and at most one of them is zero.
+fn are_defined<W: Arithmetic>(xs: [&W; 3]) -> bool {
+    let signs = xs.map(sign);
+    signs.iter().all(|s| *s >= 0.0) && signs.iter().filter(|s| **s == 0.0).count() <= 1
+}
+
 /// R_F(x, y, z) of arguments that are not negative, at most one of them zero; otherwise not finite.
 pub(super) fn rf<W: Arithmetic>(x: &W, y: &W, z: &W) -> W {
     let [mut x, mut y, mut z] = [x.clone(), y.clone(), z.clone()];
-    let zeros = [&x, &y, &z].iter().filter(|x| sign(**x) == 0.0).count();
-    if zeros > 1 || [&x, &y, &z].iter().any(|x| !(sign(*x) >= 0.0)) {
+    if !are_defined([&x, &y, &z]) {
         return x.undefined();
     }
     let third = x.constant(3.0);
@@ -79,7 +84,8 @@ fn expanded_rf<W: Arithmetic>(a: &W, x: &W, y: &W) -> W {
 
 /// R_C(x, y) of x ≥ 0 and y ≠ 0; its principal value where y is negative (DLMF 19.2.20).
 pub(super) fn rc<W: Arithmetic>(x: &W, y: &W) -> W {
-    if !(sign(x) >= 0.0) || sign(y) == 0.0 || y.approx().is_nan() {
+    let defined = sign(x) >= 0.0 && sign(y) != 0.0 && !sign(y).is_nan();
+    if !defined {
         return x.undefined();
     }
     if sign(y) < 0.0 {
@@ -121,7 +127,8 @@ pub(super) fn rd<W: Arithmetic>(x: &W, y: &W, z: &W) -> W {
     third_kind(x, y, z, None)
 }
 
-/// R_J(x, y, z, p) of x, y and z that are not negative, at most one of them zero, and a positive p; otherwise not finite.
+/// R_J(x, y, z, p) of x, y and z that are not negative, at most one of them zero, and a positive p; otherwise not
+/// finite.
 pub(super) fn rj<W: Arithmetic>(x: &W, y: &W, z: &W, p: &W) -> W {
     third_kind(x, y, z, Some(p))
 }
@@ -130,8 +137,8 @@ pub(super) fn rj<W: Arithmetic>(x: &W, y: &W, z: &W, p: &W) -> W {
 fn third_kind<W: Arithmetic>(x: &W, y: &W, z: &W, p: Option<&W>) -> W {
     let degenerate = p.is_none();
     let [mut x, mut y, mut z, mut p] = [x.clone(), y.clone(), z.clone(), p.unwrap_or(z).clone()];
-    let zeros = [&x, &y, &z].iter().filter(|x| sign(**x) == 0.0).count();
-    if zeros > 1 || [&x, &y, &z].iter().any(|x| !(sign(*x) >= 0.0)) || !(sign(&p) > 0.0) {
+    let defined = are_defined([&x, &y, &z]) && sign(&p) > 0.0;
+    if !defined {
         return x.undefined();
     }
     let mut a = x.sum(&y).sum(&z).sum(&p).sum(&p).quotient(&x.constant(5.0));

@@ -1,5 +1,6 @@
-//! The complete integrals by the arithmetic-geometric mean: R. Bulirsch, "Numerical calculation of elliptic integrals and
-//! elliptic functions III", Numer. Math. 13 (1969) 305-315; DLMF 19.8(i). No step subtracts, and each doubles the digits.
+//! The complete integrals by the arithmetic-geometric mean: R. Bulirsch, "Numerical calculation of elliptic integrals
+//! and elliptic functions III", Numer. Math. 13 (1969) 305-315; DLMF 19.8(i). No step subtracts, and each doubles the
+//! digits.
 
 use super::arithmetic::Arithmetic;
 
@@ -32,8 +33,8 @@ pub(super) fn quarter_period<W: Arithmetic>(k1: &W) -> W {
     k1.half_turn().quotient(&agm(&k1.constant(1.0), k1).by(2.0))
 }
 
-/// Bulirsch's complete integral: ∫ (α cos² + β sin²) / (cos² + p sin²) dθ/√(cos² + k'² sin²) from 0 to π/2, for positive p
-/// and k', and α and β that are not negative.
+/// Bulirsch's complete integral: ∫ (α cos² + β sin²) / (cos² + p sin²) dθ/√(cos² + k'² sin²) from 0 to π/2, for
+/// positive p and k', and α and β that are not negative.
 ///
 /// K is (p, α, β) = (1, 1, 1), E is (1, 1, k'²), D is (1, 0, 1), Π(n) is (1 - n, 1, 1).
 pub(super) fn complete<W: Arithmetic>(k1: &W, p: &W, alpha: &W, beta: &W) -> W {

@@ -1,5 +1,5 @@
-//! Binary floating point with 256 bits: the guard digits of double-doubles, and of machine numbers where 104 bits are not
-//! enough.
+//! Binary floating point with 256 bits: the guard digits of double-doubles, and of machine numbers where 104 bits are
+//! not enough.
 //!
 //! Every operation truncates: its result is right to 2^-250 relatively. Exponents are so large that nothing of a
 //! practical size over- or underflows; what does, and what is undefined, becomes a number that is not finite.

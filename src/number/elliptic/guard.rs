@@ -1,7 +1,7 @@
 //! Guard digits: which numbers the algorithms run on for a result of this or that number.
 //!
-//! Machine numbers run on double-doubles, and on 256 bits where those lose too much; double-doubles on 256 bits; `Mpfr` on
-//! 64 bits more, and on more again.
+//! Machine numbers run on double-doubles, and on 256 bits where those lose too much; double-doubles on 256 bits; `Mpfr`
+//! on 64 bits more, and on more again.
 
 use super::super::{Df64, Number};
 use super::arithmetic::{Arithmetic, Spread};
@@ -85,6 +85,7 @@ pub(in crate::number) fn double_radius(f: Elliptic, x: &[&Df64], errors: &[f64])
 #[cfg(feature = "rug")]
 mod any {
     use super::super::super::Mpfr;
+    use super::super::super::mpfr::precision;
     use super::*;
     use rug::Float;
 
@@ -92,17 +93,19 @@ mod any {
     const ATTEMPTS: u32 = 3;
 
     fn from_mpfr(x: &Mpfr, bits: u32) -> Argument<Mpfr> {
+        let bits = precision(&bits);
         let complement = Mpfr(Float::with_val(bits, 1 - &x.0));
         Argument { value: Mpfr(Float::with_val(bits, &x.0)), complement }
     }
 
-    fn precision(x: &[&Mpfr]) -> u32 {
+    /// The largest precision of the arguments.
+    fn largest(x: &[&Mpfr]) -> u32 {
         x.iter().map(|x| x.0.prec()).max().unwrap_or(64)
     }
 
     /// f, in the largest precision of the arguments.
     pub(in crate::number) fn any_precision(f: Elliptic, x: &[&Mpfr]) -> Mpfr {
-        let bits = precision(x);
+        let bits = largest(x);
         let undefined = Mpfr(Float::with_val(bits, f64::NAN));
         let finite = x.iter().all(|x| x.0.is_finite());
         let mut wide = bits.saturating_add(64);
@@ -110,7 +113,7 @@ mod any {
             let Some(x) = arguments(f, x, |x| from_mpfr(x, wide)).filter(|_| finite) else { break };
             let outcome = run(f, &x);
             let lost = outcome.lost;
-            if !outcome.value.is_known() && !(lost > 0.0) {
+            if !outcome.value.is_known() && (lost.is_nan() || lost <= 0.0) {
                 break;
             }
             if let Some(value) = kept(outcome, bits) {
@@ -124,7 +127,7 @@ mod any {
 
     /// How far f can move when the arguments move within their errors, in units of the roundoff of the result.
     pub(in crate::number) fn any_radius(f: Elliptic, x: &[&Mpfr], errors: &[f64]) -> f64 {
-        let bits = precision(x);
+        let bits = largest(x);
         let wide = arguments(f, x, |x| from_mpfr(x, bits.saturating_mul(2)));
         wide.map_or(f64::INFINITY, |x| run(f, &spreads(f, x, errors, bits)).value.radius)
     }

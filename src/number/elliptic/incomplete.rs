@@ -1,4 +1,5 @@
-//! Legendre's incomplete integrals by Carlson's (DLMF 19.25.5 to 19.25.14), and by the complete ones beyond a quarter turn.
+//! Legendre's incomplete integrals by Carlson's (DLMF 19.25.5 to 19.25.14), and by the complete ones beyond a quarter
+//! turn.
 
 use super::arithmetic::Arithmetic;
 use super::carlson::{rd, rf, rj};

@@ -1,13 +1,14 @@
 //! Jacobi's functions from one of them: sc = sn/cn, the tangent of the amplitude, which is an odd function of u that no
 //! formula here takes the difference of anything for.
 //!
-//! u is brought within half a quarter period K of a multiple nK, and halved until a few terms of Taylor's series do; then
-//! doubled again (DLMF 22.6.5 to 22.6.7, divided):
+//! u is brought within half a quarter period K of a multiple nK, and halved until a few terms of Taylor's series do;
+//! then doubled again (DLMF 22.6.5 to 22.6.7, divided):
 //!
 //! sc 2u = 2t √((1 + t²)(1 + k'²t²)) / (1 - k'²t⁴), t = sc u.
 //!
-//! From sc come sn = t/√(1 + t²), cn = 1/√(1 + t²), dn = √(1 + k'²t²)/√(1 + t²), all to their last relative digit also for
-//! k → 1, and the values at u + nK (DLMF 22.4.3). With k = 0 the same are sine and cosine, with k = 1 hyperbolic functions.
+//! From sc come sn = t/√(1 + t²), cn = 1/√(1 + t²), dn = √(1 + k'²t²)/√(1 + t²), all to their last relative digit also
+//! for k → 1, and the values at u + nK (DLMF 22.4.3). With k = 0 the same are sine and cosine, with k = 1 hyperbolic
+//! functions.
 
 use super::arithmetic::Arithmetic;
 use super::carlson::{rc, rd};
@@ -43,7 +44,7 @@ pub(super) fn tangent<W: Arithmetic>(u: &W, m1: &W) -> W {
     let bits = f64::from(u.bits());
     let small = (0.8 * bits.sqrt()).ceil();
     let halvings = (u.log2_size().ceil() + small).max(0.0);
-    if !(halvings <= 1000.0) {
+    if halvings.is_nan() || halvings > 1000.0 {
         return u.undefined();
     }
     let terms = (bits / (2.0 * small)).ceil() as usize + 1;

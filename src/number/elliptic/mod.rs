@@ -4,23 +4,25 @@
 //!
 //! - The second argument of Jacobi's functions, and the last one of Legendre's integrals, is the **modulus k**, not the
 //!   parameter m = k²: Δ² = 1 - k² sin². All are even in k, and k may be greater than 1 where they stay real.
-//! - The first argument of Jacobi's functions is u (not the amplitude); am(u, k) is the amplitude φ, which grows by π/2 with
-//!   each K.
-//! - Π(φ, n, k) = ∫ dθ/((1 - n sin²θ)Δ): DLMF 19.2.7 with α² = n. (Byrd and Friedman write the same α²; others the opposite sign.)
-//!   1 - n sin² must be positive on the way: principal values are not computed.
-//! - D = (F - E)/k² = ∫ sin²/Δ and G = ∫ sin²/Δ³ are what derivatives with respect to k consist of: with them nothing cancels
-//!   for k → 0 or k → 1.
+//! - The first argument of Jacobi's functions is u (not the amplitude); am(u, k) is the amplitude φ, which grows by π/2
+//!   with each K.
+//! - Π(φ, n, k) = ∫ dθ/((1 - n sin²θ)Δ): DLMF 19.2.7 with α² = n. (Byrd and Friedman write the same α²; others the
+//!   opposite sign.) 1 - n sin² must be positive on the way: principal values are not computed.
+//! - D = (F - E)/k² = ∫ sin²/Δ and G = ∫ sin²/Δ³ are what derivatives with respect to k consist of: with them nothing
+//!   cancels for k → 0 or k → 1.
 //!
 //! Promises.
 //!
-//! - A finite value of [`f64`], [`Df64`] or `Mpfr` is right to [`ROUNDING`] units of the roundoff, for whatever finite arguments of
-//!   magnitudes within 2^±900: also for k → 0, k → 1, large u and u next to a zero of the function. It is computed with guard
-//!   digits, whose loss is estimated on the way; where too many are lost it is computed again with more, and where
-//!   even those do not suffice the value is not finite. The exact values are those at the arguments as they are stored.
-//! - Undefined values (k = 1 in K, |k| > 1 in complete integrals, n ≥ 1 in a complete Π, negative arguments of Carlson's), infinite ones, and u
-//!   or φ beyond 2^52 quarter periods are not finite, and never panic. Every loop has a bound.
-//! - [`Tracked`](super::Tracked) adds to [`ROUNDING`] a bound of what the errors of the arguments do, by running the algorithm on
-//!   [`Spread`]s. [`Dual`](super::Dual) and [`Jet`](super::Jet) are by [`slope`].
+//! - A finite value of [`f64`], [`Df64`] or `Mpfr` is right to [`ROUNDING`] units of the roundoff, for whatever finite
+//!   arguments of magnitudes within 2^±900: also for k → 0, k → 1, large u and u next to a zero of the function. It is
+//!   computed with guard digits, whose loss is estimated on the way; where too many are lost it is computed again with
+//!   more, and where even those do not suffice the value is not finite. The exact values are those at the arguments as
+//!   they are stored.
+//! - Undefined values (k = 1 in K, |k| > 1 in complete integrals, n ≥ 1 in a complete Π, negative arguments of
+//!   Carlson's), infinite ones, and u or φ beyond 2^52 quarter periods are not finite, and never panic. Every loop has
+//!   a bound.
+//! - [`Tracked`](super::Tracked) adds to [`ROUNDING`] a bound of what the errors of the arguments do, by running the
+//!   algorithm on [`Spread`]s. [`Dual`](super::Dual) and [`Jet`](super::Jet) are by [`slope`].
 
 mod arithmetic;
 mod carlson;

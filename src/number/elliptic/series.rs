@@ -74,7 +74,8 @@ pub(in crate::number) fn dual<N: Number>(f: Elliptic, x: &[&Dual<N>]) -> Option<
     Some(Dual { value, derivative })
 }
 
-/// Derivatives in Taylor series that are known up to an order: functions that derivatives lead to are expanded with them.
+/// Derivatives in Taylor series that are known up to an order: functions that derivatives lead to are expanded with
+/// them.
 struct Expansion<'x, N> {
     x: &'x [&'x Jet<N>],
     known: HashMap<(Elliptic, Vec<usize>), Vec<N>>,

@@ -1,8 +1,10 @@
-//! The partial derivatives, by arithmetic and related functions: written once, for graphs, dual numbers and Taylor series.
+//! The partial derivatives, by arithmetic and related functions: written once, for graphs, dual numbers and Taylor
+//! series.
 //!
 //! Sources: DLMF 19.4 and 22.13 for what they have. Derivatives with respect to the modulus are by D = ∫ sin²/Δ and
-//! G = ∫ sin²/Δ³: ∂F/∂k = kG, ∂E/∂k = -kD, ∂D/∂k = (G - D)/k, as one sees under the integral; am(u, k) is the inverse of
-//! F; Π by partial fractions. Carlson's by DLMF 19.18.1 and the same; the last argument by Euler's theorem on homogeneous functions.
+//! G = ∫ sin²/Δ³: ∂F/∂k = kG, ∂E/∂k = -kD, ∂D/∂k = (G - D)/k, as one sees under the integral; am(u, k) is the inverse
+//! of F; Π by partial fractions. Carlson's by DLMF 19.18.1 and the same; the last argument by Euler's theorem on
+//! homogeneous functions.
 
 use super::Elliptic;
 
@@ -250,8 +252,8 @@ fn third_by_k<R: Rules>(r: &mut R, Third { n, k, f, g, pi, .. }: &Third<R::Value
     r.div(&numerator, &denominator)
 }
 
-/// ∂Π/∂n = (nΠ - k²D - k²(Π - F)/n - n Δ sin cos/(1 - n sin²)) / (2 (k² - n)(n - 1)), where the last term is missing in the
-/// complete one.
+/// ∂Π/∂n = (nΠ - k²D - k²(Π - F)/n - n Δ sin cos/(1 - n sin²)) / (2 (k² - n)(n - 1)), where the last term is missing in
+/// the complete one.
 fn third_by_n<R: Rules>(r: &mut R, parts: &Third<R::Value>, last: Option<R::Value>) -> R::Value {
     let Third { n, k, f, d, pi, .. } = parts;
     let k2 = r.mul(k, k);
@@ -290,8 +292,8 @@ fn incomplete_third<R: Rules>(r: &mut R, of: &[usize], by: usize) -> R::Value {
     third_by_n(r, &parts, Some(last))
 }
 
-/// Carlson's integrals. ∂R_F/∂x = -R_D(y, z, x)/6, ∂R_J/∂x = (R_J - R_D(y, z, x))/(2 (p - x)), of which R_D is the case p = z;
-/// ∂R_C/∂x = (R_C - 1/√x)/(2 (y - x)).
+/// Carlson's integrals. ∂R_F/∂x = -R_D(y, z, x)/6, ∂R_J/∂x = (R_J - R_D(y, z, x))/(2 (p - x)), of which R_D is the case
+/// p = z; ∂R_C/∂x = (R_C - 1/√x)/(2 (y - x)).
 fn carlson<R: Rules>(r: &mut R, f: Elliptic, of: &[usize], by: usize) -> R::Value {
     let last = f.arity() - 1;
     if by == last && f != Elliptic::Rf {

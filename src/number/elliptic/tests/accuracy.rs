@@ -133,7 +133,7 @@ fn double_doubles() {
     rounds_as_promised::<Df64>("Df64", 300);
 }
 
-/// As many as 10^5 arguments each: some minutes.
+/// 10^5 arguments in all for each number: some minutes.
 #[test]
 #[ignore = "takes minutes"]
 fn many_arguments() {

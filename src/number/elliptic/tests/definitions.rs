@@ -97,11 +97,13 @@ fn jacobi_functions_invert_the_first_kind() {
 
 #[test]
 fn values_of_the_literature() {
-    // DLMF and Abramowitz and Stegun, table 17.1: K(m = 1/2) = 1.85407 46773 01371 92, E = 1.35064 38810 47675 50; Γ(1/4)²/(4√π).
+    // DLMF and Abramowitz and Stegun, table 17.1: K(m = 1/2) = 1.85407 46773 01371 92, E = 1.35064 38810 47675 50;
+    // Γ(1/4)²/(4√π).
     let k = n(0.5).root();
     assert_eq!(call(CompleteK, &[k]).to_decimal(18), "1.85407467730137192");
     assert_eq!(call(CompleteE, &[k]).to_decimal(18), "1.3506438810476755");
-    // Carlson 1995, section 3: R_F(1, 2, 0), R_F(2, 3, 4), R_C(0, 1/4), R_C(1/4, -2), R_D(0, 2, 1), R_D(2, 3, 4), R_J(0, 1, 2, 3), R_J(2, 3, 4, 5).
+    // Carlson 1995, section 3: R_F(1, 2, 0), R_F(2, 3, 4), R_C(0, 1/4), R_C(1/4, -2), R_D(0, 2, 1), R_D(2, 3, 4),
+    // R_J(0, 1, 2, 3), R_J(2, 3, 4, 5).
     for (f, x, text) in [
         (Rf, vec![1.0, 2.0, 0.0], "1.3110287771461"),
         (Rf, vec![2.0, 3.0, 4.0], "0.58408284167715"),

@@ -1,5 +1,6 @@
-//! Other implementations, in machine numbers: the crates `ellip` and `spec_math`, whose parameter is m = k². The moduli here have
-//! squares that are machine numbers. Where one of them differs, `accuracy` and `definitions` say who is right.
+//! Other implementations, in machine numbers: the crates `ellip` and `spec_math`, whose parameter is m = k². The moduli
+//! here have squares that are machine numbers. Where one of them differs, `accuracy` and `definitions` say who is
+//! right.
 
 use super::*;
 

@@ -1,4 +1,5 @@
-//! Arguments at which there is no value, or that nobody would draw: no panic, no endless loop, nothing finite that is wrong.
+//! Arguments at which there is no value, or that nobody would draw: no panic, no endless loop, nothing finite that is
+//! wrong.
 
 use super::*;
 use crate::number::{Dual, Jet, Lanes, Tracked};
@@ -100,7 +101,18 @@ fn other_numbers() {
     }
 }
 
-/// A value that has no such functions, and calls with too few arguments.
+/// Intervals have no elliptic functions: nothing is known of them.
+#[cfg(feature = "rug")]
+#[test]
+fn intervals_know_nothing() {
+    use crate::number::Interval;
+    let x = [0.3, 0.4, 0.5, 0.6].map(|x| Interval::from_f64(x, &80));
+    for f in Elliptic::ALL {
+        assert!(!call(f, &x[..f.arity()]).is_bounded());
+    }
+}
+
+/// Calls with too few arguments.
 #[test]
 fn too_few_arguments() {
     let mut value = 1.0;
