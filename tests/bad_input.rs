@@ -61,7 +61,10 @@ macro_rules! notes {
     ($($name:ident)*) => { $(
         #[test]
         fn $name() {
-            insta::assert_snapshot!(stringify!($name), verify(concat!(stringify!($name), ".md")));
+            let said = verify(concat!(stringify!($name), ".md"));
+            // Certificates are there with arbitrary precision only.
+            let lines = said.lines().filter(|l| !l.trim_start().starts_with("certified:"));
+            insta::assert_snapshot!(stringify!($name), lines.collect::<Vec<_>>().join("\n"));
         }
     )* };
 }

@@ -2,7 +2,6 @@
 
 use super::super::{Df64, Func, Number};
 use super::Elliptic::{self, *};
-use super::*;
 use crate::number::conformance::Random;
 
 #[cfg(feature = "rug")]

@@ -3,6 +3,7 @@
 use super::*;
 use crate::number::Mpfr;
 use crate::number::accuracy::Exact;
+use crate::number::elliptic::ROUNDING;
 
 /// Moduli of all kinds: ordinary, small, near one; seldom beyond one.
 fn modulus<N: Exact>(random: &mut Random, f: Elliptic) -> N {
