@@ -104,7 +104,7 @@ pub fn blank(book: &Book, index: usize) -> Judgement {
     }
 }
 
-/// A printed misprint that is expected, and mended by a correction that holds, is no surprise; anything else that does
+/// A misprint that is expected, and mended by a correction that holds, is no surprise; anything else that does
 /// not hold is.
 fn as_expected(judgement: &Judgement) -> bool {
     let correction_holds = judgement.correction.is_none() || judgement.is_erratum();
@@ -209,7 +209,31 @@ pub(super) fn judge_statement(source: &Source, statement: &Statement, options: &
             }
         }
     }
+    links.extend(statement.bare.iter().filter(|bare| !is_remark(bare)).map(|bare| stateless(source, bare)));
     Outcome::of(links)
+}
+
+/// Whether a formula beside an equation is a remark: a name or a number, alone or among words.
+fn is_remark(node: &Node) -> bool {
+    match &node.kind {
+        Kind::Text(_) | Kind::Empty | Kind::Number(_) | Kind::Symbol(_) | Kind::Function(_) => true,
+        Kind::Styled(_, body) | Kind::Accent(_, body) | Kind::Dots(_, body) => is_remark(body),
+        Kind::Scripts { base, .. } => is_remark(base),
+        Kind::Group { body, .. } => is_remark(body),
+        Kind::List(items) => items.iter().all(is_remark),
+        Kind::Juxt(factors) => factors.iter().any(|f| matches!(f.kind, Kind::Text(_))) && factors.iter().all(is_remark),
+        _ => false,
+    }
+}
+
+/// A row or an item of an equation without a relation: either the print has lost one, or it is no part of it.
+fn stateless(source: &Source, bare: &Node) -> LinkJudgement {
+    let entry = &source.book.entries[source.index];
+    let reason = "no relation stands in this part: nothing is said about it";
+    let problem = trouble::part(entry, source.version, &bare.span, reason);
+    let clause = Clause { lhs: bare.clone(), rel: Rel::Eq, rhs: Side::Constant, part: 0, continued: false };
+    let latex = crate::latex::to_latex(bare);
+    LinkJudgement { latex, reason: Some(reason.into()), problem: Some(problem), ..unjudged(&clause) }
 }
 
 /// An equation without a relation: a statement, if the annotation says so and why.

@@ -397,9 +397,12 @@ impl Judgement {
         problems
     }
 
-    /// A failing equation whose correction holds.
+    /// An equation that fails while its correction holds; or one that the print has lost so much of that it cannot be
+    /// judged, where the annotation expects that and gives a correction that holds.
     pub fn is_erratum(&self) -> bool {
-        self.verdict == Verdict::Fails
+        let lost =
+            matches!(self.verdict, Verdict::Undecided | Verdict::Unreadable) && self.expect == Some(self.verdict);
+        (self.verdict == Verdict::Fails || lost)
             && self
                 .correction
                 .as_ref()

@@ -42,6 +42,14 @@ fn summarize(text: &mut String, document: &DocumentReport, paint: Paint) -> std:
     if counts.certified > 0 {
         writeln!(text, "  certified: {} of {} that fail", counts.certified, counts.fails)?;
     }
+    if counts.errata_lost > 0 {
+        let lost = counts.errata_lost;
+        writeln!(
+            text,
+            "  errata: {} with a correction that holds, {lost} of them not to be judged as printed",
+            counts.errata
+        )?;
+    }
     if let Some(dimensions) = dimensions(document) {
         writeln!(text, "  dimensions: {dimensions}")?;
     }
@@ -66,7 +74,7 @@ fn dimensions(document: &DocumentReport) -> Option<String> {
 
 /// `✗ 3 fails (1 erratum)`
 fn share(counts: Counts, verdict: Verdict, paint: Paint) -> String {
-    let errata = match (verdict, counts.errata) {
+    let errata = match (verdict, counts.errata - counts.errata_lost) {
         (Verdict::Fails, 1) => " (1 erratum)".to_owned(),
         (Verdict::Fails, n) if n > 1 => format!(" ({n} errata)"),
         _ => String::new(),
