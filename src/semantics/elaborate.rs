@@ -345,8 +345,13 @@ impl<'w> Elaborator<'w> {
             return Some((entry, values.into_inner()));
         }
         // Numbers as indices: m_1 of the family m_i; or what indices give, K_{n-2p}.
-        let numbered = numbered_pattern(node, &|letter| self.index_value(letter))?;
-        Some((self.scope.get(&numbered.0)?, numbered.1))
+        let (family, indices) = numbered_pattern(node, &|letter| self.index_value(letter))?;
+        if let Some(entry) = self.scope.get(&family) {
+            return Some((entry, indices));
+        }
+        // M_j where M_1 and M_2 are declared each by itself.
+        let entry = self.scope.get(&instance(&family, &indices))?;
+        Some((entry, entry.hidden.iter().filter_map(|letter| self.index_value(letter)).collect()))
     }
 
     /// The value that an index letter has here.
