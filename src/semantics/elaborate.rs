@@ -361,8 +361,8 @@ impl<'w> Elaborator<'w> {
 
     /// The value of a declared symbol, or `None` where the node is no declared name.
     fn declared(&mut self, node: &Node) -> Result<Option<Typed>> {
-        if let Some(argument) = self.argument(node) {
-            return Ok(Some(argument));
+        if let Some(bound) = self.argument(node).or_else(|| self.running(node)) {
+            return Ok(Some(bound));
         }
         let Some((entry, indices)) = self.entry(node) else { return Ok(None) };
         let entry = entry.clone();
@@ -409,6 +409,17 @@ impl<'w> Elaborator<'w> {
             }
         };
         Ok(Some(Typed::new(value, shown_name(node))))
+    }
+
+    /// The value of the letter that a sum runs through, whatever else it may be outside; but where a declared formula is
+    /// written out, its letters are those of the declaration.
+    fn running(&mut self, node: &Node) -> Option<Typed> {
+        let Kind::Symbol(letter) = &node.kind else { return None };
+        if self.aliases.get() > 0 && self.scope.get(letter).is_some() {
+            return None;
+        }
+        let value = self.index_value(letter)?;
+        Some(Typed::new(Value::Scalar(self.world.graph.int(value)), letter.clone()))
     }
 
     /// What a name stands for, which may be a name that stands for something.

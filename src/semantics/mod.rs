@@ -30,6 +30,7 @@ mod quaternion;
 mod remainder;
 mod scope;
 mod statement;
+mod substitute;
 mod terms;
 #[cfg(test)]
 mod testing;

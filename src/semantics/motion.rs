@@ -154,6 +154,9 @@ impl Elaborator<'_> {
 
     /// `X|_0` and `X|_0^t`.
     pub(super) fn evaluated_at(&mut self, body: &Node, at: &Node, span: &Span) -> Result<Typed> {
+        if let Some(found) = self.replaced(body, at, span)? {
+            return Ok(found);
+        }
         let limits = match &at.kind {
             Kind::Scripts { base, primes: 0, sub: Some(sub), sup } if base.kind == Kind::Empty => (sub, sup),
             _ => return Err(Error::unsupported("a value at a condition is not evaluated yet", span)),
