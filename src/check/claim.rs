@@ -155,7 +155,8 @@ impl<'b> Source<'b> {
             branches[0].extend(pairs(&mut world, &link, clause.rhs == Side::Constant));
         }
         let mut given = self.given(&mut world)?;
-        for clause in known {
+        let conditions = clauses.iter().flat_map(|clause| &clause.when);
+        for clause in conditions.chain(known) {
             self.add_clause(&mut world, self.scope(), clause, &mut given).map_err(Obstacle::Link)?;
         }
         given.equal.extend(world.integral_rates());
@@ -262,6 +263,8 @@ impl<'b> Source<'b> {
 
     /// Adds what a clause states, where it is an equation or says what is greater.
     fn add_clause(&self, world: &mut World, scope: &Scope, clause: &Clause, stated: &mut Stated) -> Result<(), Error> {
+        // What holds under a condition is given with it.
+        clause.when.iter().try_for_each(|condition| self.add_clause(world, scope, condition, stated))?;
         let ordered = matches!(clause.rel, Rel::Lt | Rel::Le | Rel::Gt | Rel::Ge);
         let equal = matches!(clause.rel, Rel::Eq | Rel::Equiv | Rel::Implies) || semantics::is_geometric(clause.rel);
         if !ordered && !equal {

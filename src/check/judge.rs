@@ -14,6 +14,7 @@ use super::decide;
 use super::general;
 use super::law;
 use super::order;
+use super::stateless;
 use super::trouble;
 use super::verdict::{Correction, DimensionStatus, Judgement, LinkJudgement, LostBits, Strength, Verdict};
 
@@ -209,31 +210,14 @@ pub(super) fn judge_statement(source: &Source, statement: &Statement, options: &
             }
         }
     }
-    links.extend(statement.bare.iter().filter(|bare| !is_remark(bare)).map(|bare| stateless(source, bare)));
+    links.extend(
+        statement
+            .bare
+            .iter()
+            .filter(|bare| !stateless::is_remark(&entry.scope, bare))
+            .map(|bare| stateless::undecided(source, bare)),
+    );
     Outcome::of(links)
-}
-
-/// Whether a formula beside an equation is a remark: a name or a number, alone or among words.
-fn is_remark(node: &Node) -> bool {
-    match &node.kind {
-        Kind::Text(_) | Kind::Empty | Kind::Number(_) | Kind::Symbol(_) | Kind::Function(_) => true,
-        Kind::Styled(_, body) | Kind::Accent(_, body) | Kind::Dots(_, body) => is_remark(body),
-        Kind::Scripts { base, .. } => is_remark(base),
-        Kind::Group { body, .. } => is_remark(body),
-        Kind::List(items) => items.iter().all(is_remark),
-        Kind::Juxt(factors) => factors.iter().any(|f| matches!(f.kind, Kind::Text(_))) && factors.iter().all(is_remark),
-        _ => false,
-    }
-}
-
-/// A row or an item of an equation without a relation: either the print has lost one, or it is no part of it.
-fn stateless(source: &Source, bare: &Node) -> LinkJudgement {
-    let entry = &source.book.entries[source.index];
-    let reason = "no relation stands in this part: nothing is said about it";
-    let problem = trouble::part(entry, source.version, &bare.span, reason);
-    let clause = Clause { lhs: bare.clone(), rel: Rel::Eq, rhs: Side::Constant, part: 0, continued: false };
-    let latex = crate::latex::to_latex(bare);
-    LinkJudgement { latex, reason: Some(reason.into()), problem: Some(problem), ..unjudged(&clause) }
 }
 
 /// An equation without a relation: a statement, if the annotation says so and why.
@@ -349,7 +333,7 @@ fn definition(clause: &Clause) -> LinkJudgement {
 }
 
 /// A judgement on a clause that says nothing yet.
-fn unjudged(clause: &Clause) -> LinkJudgement {
+pub(super) fn unjudged(clause: &Clause) -> LinkJudgement {
     LinkJudgement {
         latex: clause.latex(),
         verdict: Verdict::Undecided,

@@ -23,6 +23,7 @@ mod sameness;
 mod sampling;
 mod screen;
 mod shrink;
+mod stateless;
 mod system;
 mod trial;
 mod trouble;

@@ -29,6 +29,8 @@ pub struct Clause {
     pub part: usize,
     /// Whether the left side is the last side of the equation before.
     pub continued: bool,
+    /// The conditions that stand beside it, as in a row of cases.
+    pub when: Vec<Clause>,
 }
 
 impl Clause {
@@ -76,6 +78,10 @@ struct Builder {
 
 impl Builder {
     fn add(&mut self, node: &Node) -> Result<()> {
+        if let (side, Some(cases @ Node { kind: Kind::Matrix { .. }, .. })) = without_aside(node) {
+            self.begin(&side);
+            return self.aside(cases);
+        }
         match &node.kind {
             Kind::Rows(rows) => rows.iter().try_for_each(|row| self.add(row)),
             Kind::List(items) => items.iter().try_for_each(|item| self.add(item)),
@@ -84,7 +90,7 @@ impl Builder {
             Kind::Matrix { env: MatrixEnv::Cases | MatrixEnv::Array, rows }
                 if rows.iter().flatten().any(holds_relation) =>
             {
-                rows.iter().filter_map(|row| row.first()).try_for_each(|cell| self.add(cell))
+                self.rows(rows)
             }
             Kind::Group { open: Delim::None | Delim::Brace, body, .. } if holds_relation(body) => self.add(body),
             Kind::Group { open: Delim::Paren, body, .. } if holds_relation(body) => self.aside(body),
@@ -99,6 +105,37 @@ impl Builder {
                 Ok(())
             }
         }
+    }
+
+    /// A row of an array: the cells behind the first continue it, or say when it is so.
+    fn row(&mut self, cells: &[Node]) -> Result<()> {
+        let before = self.out.clauses.len();
+        let mut open = None;
+        for (k, cell) in cells.iter().enumerate() {
+            if let Some(link) = open.take() {
+                self.link(&Link { rhs: cell.clone(), ..link })?;
+            } else if let (1.., Some(condition)) = (k, condition(cell)) {
+                let conditions = statement(condition, None)?.clauses;
+                self.out.clauses[before..].iter_mut().for_each(|clause| clause.when.extend(conditions.clone()));
+            } else {
+                self.add(cell)?;
+            }
+            open = open_relation(cell);
+        }
+        Ok(())
+    }
+
+    /// The rows of an array: statements of their own; or cases of one that stands before them, `f \begin{cases} > 0 ...`.
+    fn rows(&mut self, rows: &[Vec<Node>]) -> Result<()> {
+        let (last, head) = (self.out.last.clone(), self.out.head.clone());
+        let cases = last.is_some() && rows.iter().all(|row| begins(row));
+        for row in rows {
+            if cases {
+                (self.out.last, self.out.head) = (last.clone(), head.clone());
+            }
+            self.row(row)?;
+        }
+        Ok(())
     }
 
     /// What is said in brackets: a statement of its own, or a last link, `f (= g)`. What follows does not continue it.
@@ -151,12 +188,35 @@ impl Builder {
         self.out.bare.retain(|bare| bare.span != lhs.span);
         let constant = is_constant(&link.rhs);
         let rhs = if constant { Side::Constant } else { Side::Node(link.rhs.clone()) };
-        self.out.clauses.push(Clause { lhs, rel: link.rel, rhs, part: self.part, continued: self.continued });
+        self.out.clauses.push(Clause {
+            lhs,
+            rel: link.rel,
+            rhs,
+            part: self.part,
+            continued: self.continued,
+            when: Vec::new(),
+        });
         if !constant {
             self.out.last = Some(link.rhs.clone());
             self.continued = false;
         }
         Ok(())
+    }
+}
+
+/// The condition that a cell behind others states, in brackets or not; none where it continues them.
+fn condition(cell: &Node) -> Option<&Node> {
+    match &cell.kind {
+        Kind::Group { open: Delim::Paren, body, .. } => condition(body),
+        _ => (holds_relation(cell) && !begins_with_relation(cell)).then_some(cell),
+    }
+}
+
+/// The relation that a cell ends with: its right side is the next cell.
+fn open_relation(cell: &Node) -> Option<Link> {
+    match &cell.kind {
+        Kind::Chain { links, .. } => links.last().filter(|link| matches!(link.rhs.kind, Kind::Empty)).cloned(),
+        _ => None,
     }
 }
 
@@ -217,18 +277,18 @@ fn holds_relation(node: &Node) -> bool {
     }
 }
 
-/// A side without the statement in brackets behind it, and that statement: `f (= g)`, `0 (a \parallel b)`.
+/// A side without the statement behind it, and that statement: `f (= g)`, `0 (a \parallel b)`, `f \begin{cases} > 0 ...`.
 fn without_aside(side: &Node) -> (Node, Option<&Node>) {
     match &side.kind {
         Kind::Juxt(factors) => match factors.split_last() {
-            Some((Node { kind: Kind::Group { open: Delim::Paren, body, .. }, .. }, rest)) if holds_relation(body) => {
+            Some((last, rest)) if aside_of(last).is_some() && !rest.is_empty() => {
                 let kind = if rest.len() == 1 { rest[0].kind.clone() } else { Kind::Juxt(rest.to_vec()) };
                 let end = rest.last().map_or(side.span.end, |n| n.span.end);
-                (Node::new(kind, side.span.start..end), Some(body))
+                (Node::new(kind, side.span.start..end), aside_of(last))
             }
             _ => (side.clone(), None),
         },
-        // Behind the last term of a sum.
+        // Behind the last term of a sum, the last factor of a product.
         Kind::Sum(terms) => match terms.split_last() {
             Some((last, rest)) => {
                 let (node, aside) = without_aside(&last.node);
@@ -237,8 +297,32 @@ fn without_aside(side: &Node) -> (Node, Option<&Node>) {
             }
             None => (side.clone(), None),
         },
+        Kind::Product { first, rest } => match rest.split_last() {
+            Some(((op, last), before)) => {
+                let (node, aside) = without_aside(last);
+                let rest = before.iter().cloned().chain([(*op, node)]).collect();
+                (Node::new(Kind::Product { first: first.clone(), rest }, side.span.clone()), aside)
+            }
+            None => (side.clone(), None),
+        },
         _ => (side.clone(), None),
     }
+}
+
+/// The statement that a last factor is: one in brackets, or cases that begin with relations.
+fn aside_of(factor: &Node) -> Option<&Node> {
+    match &factor.kind {
+        Kind::Group { open: Delim::Paren, body, .. } if holds_relation(body) => Some(body),
+        Kind::Matrix { env: MatrixEnv::Cases | MatrixEnv::Array, rows } if rows.iter().all(|row| begins(row)) => {
+            Some(factor)
+        }
+        _ => None,
+    }
+}
+
+/// Whether a row of an array begins with a relation.
+fn begins(row: &[Node]) -> bool {
+    row.first().is_some_and(begins_with_relation)
 }
 
 /// Whether a side consists of words only.
