@@ -191,3 +191,12 @@ fn conditions_beside_a_row_restrict_it() {
     // The cell behind continues the first.
     tells_apart("", r"\begin{cases} a - a = 0 & = b - b \end{cases}", r"\begin{cases} a - a = 0 & = b + b \end{cases}");
 }
+
+#[test]
+fn what_only_restates_a_premise_is_told() {
+    let restated = |latex: &str, annotation: &str| Judgement::only_restates(&one(latex, annotation).links);
+    assert!(restated("x = a + b", "where = ['a + b = x']"));
+    assert!(restated(r"\vec{u} = a \vec{v}", r"where = ['\vec{u} = a \vec{v}']"));
+    assert!(!restated("x - a = b", "where = ['a + b = x']"));
+    assert!(!restated("x = a + b = b + x - b", "where = ['a + b = x']"));
+}

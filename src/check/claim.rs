@@ -37,6 +37,13 @@ impl Pair {
     }
 }
 
+/// Whether each pair is one of those that are given as equal, apart from what is nothing but itself.
+fn restates(branches: &[Branch], given: &[(Expr, Expr)]) -> bool {
+    let said = |pair: &&Pair| given.contains(&(pair.lhs, pair.rhs)) || given.contains(&(pair.rhs, pair.lhs));
+    let mut pairs = branches.iter().flatten().filter(|pair| pair.lhs != pair.rhs).peekable();
+    pairs.peek().is_some() && pairs.all(|pair| said(&pair))
+}
+
 /// The pairs of one branch of a link.
 pub type Branch = Vec<Pair>;
 
@@ -64,6 +71,8 @@ pub struct Claim {
     pub bound: BTreeSet<SymId>,
     /// What must be greater or less than zero at a state.
     pub ordered: Vec<(Rel, Expr)>,
+    /// Whether the premises say the same in as many terms: what holds then shows nothing.
+    pub restated: bool,
 }
 
 /// What premises state, of scalars.
@@ -159,6 +168,7 @@ impl<'b> Source<'b> {
         for clause in conditions.chain(known) {
             self.add_clause(&mut world, self.scope(), clause, &mut given).map_err(Obstacle::Link)?;
         }
+        let restated = restates(&branches, &given.equal);
         given.equal.extend(world.integral_rates());
         let small = self.small(&mut world)?;
         let condition = self.condition(&mut world)?;
@@ -189,7 +199,20 @@ impl<'b> Source<'b> {
         world.check(&clause.lhs.span).map_err(Obstacle::Link)?;
         let (lhs_text, rhs_text) = typed.first().map(|l| (l.lhs_text.clone(), l.rhs_text.clone())).unwrap_or_default();
         let rel = clause.rel;
-        Ok(Claim { world, rel, branches, premises, solve, small, lhs_text, rhs_text, condition, bound, ordered })
+        Ok(Claim {
+            world,
+            rel,
+            branches,
+            premises,
+            solve,
+            small,
+            lhs_text,
+            rhs_text,
+            condition,
+            bound,
+            ordered,
+            restated,
+        })
     }
 
     pub(super) fn branches(&self, world: &mut World, scope: &Scope, clause: &Clause) -> Result<Vec<TypedLink>, Error> {

@@ -349,6 +349,7 @@ pub(super) fn unjudged(clause: &Clause) -> LinkJudgement {
         exact: None,
         inexact: None,
         lost_bits: None,
+        restated: false,
     }
 }
 
@@ -397,6 +398,12 @@ fn link_verdict(source: &Source, clause: &Clause, scope: &Scope, known: &[Clause
 }
 
 fn evaluate(judgement: LinkJudgement, claim: Claim, source: &Source, options: &Options) -> LinkJudgement {
+    let restated = claim.restated;
+    let judged = by_relation(judgement, claim, source, options);
+    LinkJudgement { restated: restated && judged.verdict == Verdict::Holds, ..judged }
+}
+
+fn by_relation(judgement: LinkJudgement, claim: Claim, source: &Source, options: &Options) -> LinkJudgement {
     let name = format!("{}/{}", source.book.entries[source.index].equation.label, judgement.latex);
     match (claim.small, claim.rel) {
         (Some(_), Rel::Eq | Rel::Equiv) => {
