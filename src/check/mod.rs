@@ -26,6 +26,7 @@ mod shrink;
 mod system;
 mod trial;
 mod trouble;
+mod value;
 pub mod verdict;
 
 pub use book::{Book, Entry, Formula, Unclear, Version};

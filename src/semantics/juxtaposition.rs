@@ -21,6 +21,7 @@ use super::elaborate::{Elaborator, Typed};
 use super::elliptic::is_name;
 use super::error::{Error, Result};
 use super::quaternion;
+use super::sexagesimal;
 use super::value::{self, Value};
 use super::world::{Joint, Role};
 
@@ -168,6 +169,9 @@ impl Elaborator<'_> {
         if let Some(found) = self.elliptic(items)? {
             return Ok(found);
         }
+        if let Some(found) = self.angle(items)? {
+            return Ok(found);
+        }
         let (head, sup) = head_and_power(node);
         match &head.kind {
             Kind::Function(name) => return self.function(name, sup, node, &items[1..]).map(|(t, n)| (t, n + 1)),
@@ -274,6 +278,9 @@ impl Elaborator<'_> {
     fn argument_length(&self, rest: &[Item]) -> usize {
         if matches!(rest.first(), Some(Item::Factor(n)) if is_bracket(n)) {
             return 1;
+        }
+        if let angle @ 1.. = sexagesimal::length(rest) {
+            return angle;
         }
         let mut used = 0;
         let mut only_numbers = true;

@@ -16,11 +16,15 @@ mod elliptic;
 mod error;
 mod geometric;
 mod juxtaposition;
+mod mean;
 mod motion;
 mod name;
+mod poisson;
 mod power;
 mod quaternion;
+mod ratio;
 mod scope;
+mod sexagesimal;
 mod statement;
 mod terms;
 #[cfg(test)]
