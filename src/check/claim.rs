@@ -235,6 +235,7 @@ impl<'b> Source<'b> {
         for reference in entry.given(self.link) {
             self.add_equation(world, reference, &mut stated)?;
         }
+        self.add_data(world, &mut stated)?;
         self.add_assumed(world, &mut stated)?;
         Ok(stated)
     }

@@ -16,6 +16,7 @@ use super::law;
 use super::order;
 use super::stateless;
 use super::trouble;
+use super::value;
 use super::verdict::{Correction, DimensionStatus, Judgement, LinkJudgement, LostBits, Strength, Verdict};
 
 /// What the checker is asked for.
@@ -202,7 +203,10 @@ pub(super) fn judge_statement(source: &Source, statement: &Statement, options: &
         } else {
             let link = judge_link(source, clause, &entry.scope, &known, options);
             let equality = matches!(clause.rel, Rel::Eq | Rel::Equiv) || semantics::is_geometric(clause.rel);
-            if equality && kind(book, index) == "law" && link.verdict != Verdict::Holds {
+            if link.verdict == Verdict::Definition {
+                known.push(Clause { rel: Rel::Eq, ..clause.clone() });
+                links.push(link);
+            } else if equality && kind(book, index) == "law" && link.verdict != Verdict::Holds {
                 links.push(taken_as_law(link, source, clause, &known, options));
                 known.push(clause.clone());
             } else {
@@ -292,7 +296,7 @@ fn worst(links: &[LinkJudgement]) -> Verdict {
 /// Whether a clause introduces a symbol: one side is a declared symbol that neither an earlier equation nor a premise
 /// mentions.
 pub(super) fn defines(book: &Book, index: usize, clause: &Clause) -> bool {
-    if !matches!(clause.rel, Rel::Eq | Rel::Equiv) {
+    if !matches!(clause.rel, Rel::Eq | Rel::Equiv) || value::is_value(book, index) {
         return false;
     }
     let entry = &book.entries[index];
@@ -374,7 +378,10 @@ pub(super) fn judge_link(
 
 fn link_verdict(source: &Source, clause: &Clause, scope: &Scope, known: &[Clause], options: &Options) -> LinkJudgement {
     let mut judgement = unjudged(clause);
+    let entry = &source.book.entries[source.index];
+    let printed = value::is_value(source.book, source.index).then(|| value::printed(entry, clause)).flatten();
     let mapped = match clause.rel {
+        _ if printed.is_some() => Clause { rel: Rel::Eq, ..clause.clone() },
         Rel::To => match source.mapped(clause) {
             None => {
                 judgement.reason =
@@ -393,7 +400,10 @@ fn link_verdict(source: &Source, clause: &Clause, scope: &Scope, known: &[Clause
     };
     match source.claim(&mapped, scope, known) {
         Err(obstacle) => obstructed(judgement, source, clause, &obstacle),
-        Ok(claim) => evaluate(judgement, claim, source, options),
+        Ok(claim) => match printed.filter(|p| !p.is_arithmetic()) {
+            Some(printed) => value::judge(judgement, source, clause, &printed, claim, options),
+            None => evaluate(judgement, claim, source, options),
+        },
     }
 }
 

@@ -27,6 +27,7 @@ mod stateless;
 mod system;
 mod trial;
 mod trouble;
+mod value;
 pub mod verdict;
 
 pub use book::{Book, Entry, Formula, Unclear, Version};

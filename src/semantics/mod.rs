@@ -22,12 +22,16 @@ mod juxtaposition;
 mod legendre;
 mod limits;
 mod link;
+mod mean;
 mod motion;
 mod name;
+mod poisson;
 mod power;
 mod quaternion;
+mod ratio;
 mod remainder;
 mod scope;
+mod sexagesimal;
 mod statement;
 mod terms;
 #[cfg(test)]

@@ -5,6 +5,7 @@ use crate::latex::to_latex;
 
 use super::error::{Error, Result};
 use super::geometric::is_geometric;
+use super::ratio;
 use super::scope::Scope;
 
 /// One side of a link.
@@ -155,6 +156,8 @@ impl Builder {
     }
 
     fn chain(&mut self, first: Option<&Node>, links: &[Link], node: &Node) -> Result<()> {
+        let folded = ratio::folded(first, links);
+        let (first, links) = folded.as_ref().map_or((first, links), |(f, l)| (f.as_ref(), l.as_slice()));
         match first {
             Some(first @ Node { kind: Kind::Annotated { .. }, .. }) if holds_relation(first) => self.add(first)?,
             Some(first) if !is_words(first) => self.begin(first),
@@ -183,10 +186,13 @@ impl Builder {
     }
 
     fn link(&mut self, link: &Link) -> Result<()> {
-        let Some(lhs) = self.out.last.clone() else { return Ok(()) };
+        let Some(mut lhs) = self.out.last.clone() else { return Ok(()) };
         // A row that the next one continues.
         self.out.bare.retain(|bare| bare.span != lhs.span);
-        let constant = is_constant(&link.rhs);
+        let mut constant = is_constant(&link.rhs);
+        if let Some(difference) = without_constant(&lhs, &link.rhs) {
+            (lhs, constant) = (difference, true);
+        }
         let rhs = if constant { Side::Constant } else { Side::Node(link.rhs.clone()) };
         self.out.clauses.push(Clause {
             lhs,
@@ -343,6 +349,24 @@ fn is_constant(node: &Node) -> bool {
         Kind::Juxt(factors) => factors.first().is_some_and(is_constant),
         _ => false,
     }
+}
+
+/// The left side minus all that is printed beside the word const. on the right, `n t + \text{const.}`.
+fn without_constant(lhs: &Node, rhs: &Node) -> Option<Node> {
+    let Kind::Sum(terms) = &rhs.kind else { return None };
+    let (constants, rest): (Vec<&Term>, Vec<&Term>) = terms.iter().partition(|t| is_constant(&t.node));
+    let opposite = |sign| match sign {
+        Sign::Plus => Sign::Minus,
+        Sign::Minus => Sign::Plus,
+        Sign::PlusMinus => Sign::MinusPlus,
+        Sign::MinusPlus => Sign::PlusMinus,
+    };
+    if constants.len() != 1 || rest.is_empty() {
+        return None;
+    }
+    let moved = rest.into_iter().map(|t| Term { sign: opposite(t.sign), ..t.clone() });
+    let first = Term { sign: Sign::Plus, sign_span: None, node: lhs.clone() };
+    Some(Node::new(Kind::Sum(std::iter::once(first).chain(moved).collect()), rhs.span.clone()))
 }
 
 /// Whether a formula has branches by ±.
