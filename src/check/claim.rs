@@ -155,6 +155,12 @@ impl<'b> Source<'b> {
             branches[0].extend(pairs(&mut world, &link, clause.rhs == Side::Constant));
         }
         let mut given = self.given(&mut world)?;
+        for when in clauses.iter().filter_map(|clause| clause.when.as_ref()) {
+            let cases = semantics::statement(when, None).map_err(Obstacle::Link)?;
+            for clause in &cases.clauses {
+                self.add_clause(&mut world, scope, clause, &mut given).map_err(Obstacle::Link)?;
+            }
+        }
         for clause in known {
             self.add_clause(&mut world, self.scope(), clause, &mut given).map_err(Obstacle::Link)?;
         }
@@ -264,8 +270,12 @@ impl<'b> Source<'b> {
     fn add_clause(&self, world: &mut World, scope: &Scope, clause: &Clause, stated: &mut Stated) -> Result<(), Error> {
         let ordered = matches!(clause.rel, Rel::Lt | Rel::Le | Rel::Gt | Rel::Ge);
         let equal = matches!(clause.rel, Rel::Eq | Rel::Equiv | Rel::Implies) || semantics::is_geometric(clause.rel);
-        if !ordered && !equal {
+        if !ordered && !equal || clause.when.is_some() {
             return Ok(());
+        }
+        if clause.is_approximate() {
+            let message = "an equation up to terms of higher order is no exact premise";
+            return Err(Error::unsupported(message, &clause.lhs.span));
         }
         let link = semantics::understand(world, scope, clause, true)?;
         let constant = clause.rhs == Side::Constant;
@@ -349,9 +359,9 @@ impl<'b> Source<'b> {
     }
 
     fn condition(&self, world: &mut World) -> Result<Option<(Rel, Expr, Expr)>, Obstacle> {
-        let Some(text) = self.book.entries[self.index].annotation().and_then(|a| a.iff.as_ref()) else {
-            return Ok(None);
-        };
+        let Some(annotation) = self.book.entries[self.index].annotation() else { return Ok(None) };
+        let of_link = annotation.link.iter().find(|l| self.link.is_some_and(|k| k + 1 == l.number));
+        let Some(text) = of_link.and_then(|l| l.iff.as_ref()).or(annotation.iff.as_ref()) else { return Ok(None) };
         let obstacle = |message: String| Obstacle::Premise(text.value.clone(), message, text.span.clone());
         let tree = Formula::new(&text.value).tree.map_err(|e| broken(text, &e))?;
         let statement = semantics::statement(&tree, None).map_err(|e| unclear(text, &e))?;

@@ -209,7 +209,8 @@ pub(super) fn judge_statement(source: &Source, statement: &Statement, options: &
             }
         }
     }
-    links.extend(statement.bare.iter().filter(|bare| !is_remark(bare)).map(|bare| stateless(source, bare)));
+    let remark = |bare: &Node| is_remark(bare) || entry.scope.get(&semantics::pattern_of(&entry.scope, bare)).is_some();
+    links.extend(statement.bare.iter().filter(|bare| !remark(bare)).map(|bare| stateless(source, bare)));
     Outcome::of(links)
 }
 
@@ -231,7 +232,7 @@ fn stateless(source: &Source, bare: &Node) -> LinkJudgement {
     let entry = &source.book.entries[source.index];
     let reason = "no relation stands in this part: nothing is said about it";
     let problem = trouble::part(entry, source.version, &bare.span, reason);
-    let clause = Clause { lhs: bare.clone(), rel: Rel::Eq, rhs: Side::Constant, part: 0, continued: false };
+    let clause = Clause { lhs: bare.clone(), rel: Rel::Eq, rhs: Side::Constant, part: 0, continued: false, when: None };
     let latex = crate::latex::to_latex(bare);
     LinkJudgement { latex, reason: Some(reason.into()), problem: Some(problem), ..unjudged(&clause) }
 }
@@ -389,6 +390,11 @@ pub(super) fn judge_link(
 
 fn link_verdict(source: &Source, clause: &Clause, scope: &Scope, known: &[Clause], options: &Options) -> LinkJudgement {
     let mut judgement = unjudged(clause);
+    let small = source.book.entries[source.index].annotation().is_some_and(|a| a.small.is_some());
+    if clause.is_approximate() && !small {
+        judgement.reason = Some("terms of higher order in what? Say small = '...', and their order".into());
+        return judgement;
+    }
     let mapped = match clause.rel {
         Rel::To => match source.mapped(clause) {
             None => {

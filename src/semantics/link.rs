@@ -7,6 +7,7 @@ use super::elaborate::Elaborator;
 use super::error::{Error, Result};
 use super::geometric::{as_equation, is_geometric};
 use super::juxtaposition::Item;
+use super::notes::without_order_terms;
 use super::quaternion;
 use super::scope::Scope;
 use super::statement::{Clause, Side};
@@ -66,6 +67,9 @@ fn component_name(value: &Value, k: usize) -> String {
 
 /// Understands a clause in a world, by a scope. `upper` chooses the branch of ±.
 pub fn understand(world: &mut World, scope: &Scope, clause: &Clause, upper: bool) -> Result<TypedLink> {
+    if let Some(exact) = without_orders(clause) {
+        return understand(world, scope, &exact, upper);
+    }
     let mut sides = vec![&clause.lhs];
     if let Side::Node(rhs) = &clause.rhs {
         sides.push(rhs);
@@ -95,6 +99,16 @@ pub fn understand(world: &mut World, scope: &Scope, clause: &Clause, upper: bool
     }
     world.check(&clause.lhs.span)?;
     Ok(link)
+}
+
+/// A clause without the terms of higher order that it names; `None` where it names none.
+pub(super) fn without_orders(clause: &Clause) -> Option<Clause> {
+    let strip = |node: &Node| without_order_terms(node).unwrap_or_else(|| node.clone());
+    let rhs = match &clause.rhs {
+        Side::Node(node) => Side::Node(strip(node)),
+        Side::Constant => Side::Constant,
+    };
+    clause.is_approximate().then(|| Clause { lhs: strip(&clause.lhs), rhs, ..clause.clone() })
 }
 
 /// The value of an expression; where it has free indices, the tuple of its values for all of them.

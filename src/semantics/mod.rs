@@ -19,6 +19,7 @@ mod juxtaposition;
 mod link;
 mod motion;
 mod name;
+mod notes;
 mod power;
 mod quaternion;
 mod scope;

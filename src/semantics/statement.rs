@@ -5,6 +5,7 @@ use crate::latex::to_latex;
 
 use super::error::{Error, Result};
 use super::geometric::is_geometric;
+use super::notes::{at_braces, has_order_term, relations_of, without_cases};
 use super::scope::Scope;
 
 /// One side of a link.
@@ -29,6 +30,8 @@ pub struct Clause {
     pub part: usize,
     /// Whether the left side is the last side of the equation before.
     pub continued: bool,
+    /// The condition under which it is said, where it is one of several cases.
+    pub when: Option<Node>,
 }
 
 impl Clause {
@@ -38,7 +41,13 @@ impl Clause {
             Side::Node(n) => to_latex(n),
             Side::Constant => "\\text{const.}".to_owned(),
         };
-        format!("{} {} {rhs}", to_latex(&self.lhs), relation_latex(self.rel))
+        let when = self.when.as_ref().map(|when| format!(" \\quad ({})", to_latex(when))).unwrap_or_default();
+        format!("{} {} {rhs}{when}", to_latex(&self.lhs), relation_latex(self.rel))
+    }
+
+    /// Whether it is said up to terms of higher order, `+ \mathcal{O}(x^2)`.
+    pub fn is_approximate(&self) -> bool {
+        has_order_term(&self.lhs) || matches!(&self.rhs, Side::Node(rhs) if has_order_term(rhs))
     }
 }
 
@@ -64,6 +73,7 @@ pub fn statement(root: &Node, previous: Option<&Statement>) -> Result<Statement>
         builder.continued = true;
     }
     builder.add(root)?;
+    builder.braces(root);
     Ok(builder.out)
 }
 
@@ -84,7 +94,7 @@ impl Builder {
             Kind::Matrix { env: MatrixEnv::Cases | MatrixEnv::Array, rows }
                 if rows.iter().flatten().any(holds_relation) =>
             {
-                rows.iter().filter_map(|row| row.first()).try_for_each(|cell| self.add(cell))
+                rows.iter().try_for_each(|row| self.case(row))
             }
             Kind::Group { open: Delim::None | Delim::Brace, body, .. } if holds_relation(body) => self.add(body),
             Kind::Group { open: Delim::Paren, body, .. } if holds_relation(body) => self.aside(body),
@@ -98,6 +108,21 @@ impl Builder {
                 self.out.bare.push(node.clone());
                 Ok(())
             }
+        }
+    }
+
+    /// A row of cases: its first cell, and what is said to follow from it in the others. The rest are remarks.
+    fn case(&mut self, row: &[Node]) -> Result<()> {
+        let follows = |cell: &&Node| matches!(relations_of(cell), Some([Link { rel: Rel::Implies, .. }, ..]));
+        let (first, rest) = (row.first(), row.iter().skip(1));
+        first.into_iter().chain(rest.filter(follows)).try_for_each(|cell| self.add(cell))
+    }
+
+    /// What stands at braces is said of what they span.
+    fn braces(&mut self, root: &Node) {
+        for (lhs, link) in at_braces(root) {
+            let rhs = if is_constant(&link.rhs) { Side::Constant } else { Side::Node(link.rhs) };
+            self.out.clauses.push(Clause { lhs, rel: link.rel, rhs, part: self.part, continued: false, when: None });
         }
     }
 
@@ -133,7 +158,16 @@ impl Builder {
                 self.add(&link.rhs)?;
                 continue;
             }
+            if link.rel == Rel::Ratio && holds_words(&link.rhs) && !is_constant(&link.rhs) {
+                // What a symbol means, behind a colon.
+                continue;
+            }
             if matches!(link.rhs.kind, Kind::Empty) || is_words(&link.rhs) && !is_constant(&link.rhs) {
+                continue;
+            }
+            if let Some((side, rows)) = without_cases(&link.rhs) {
+                self.link(&Link { rhs: side, ..link.clone() })?;
+                self.cases(rows);
                 continue;
             }
             let (side, aside) = without_aside(&link.rhs);
@@ -145,13 +179,26 @@ impl Builder {
         Ok(())
     }
 
+    /// Relations of the last side, each under the condition in its second cell.
+    fn cases(&mut self, rows: &[Vec<Node>]) {
+        let Some(lhs) = self.out.last.clone() else { return };
+        for row in rows {
+            for link in row.first().and_then(relations_of).unwrap_or_default() {
+                let (rhs, when) = (Side::Node(link.rhs.clone()), row.get(1).cloned());
+                let clause = Clause { lhs: lhs.clone(), rel: link.rel, rhs, part: self.part, continued: false, when };
+                self.out.clauses.push(clause);
+            }
+        }
+    }
+
     fn link(&mut self, link: &Link) -> Result<()> {
         let Some(lhs) = self.out.last.clone() else { return Ok(()) };
         // A row that the next one continues.
         self.out.bare.retain(|bare| bare.span != lhs.span);
         let constant = is_constant(&link.rhs);
         let rhs = if constant { Side::Constant } else { Side::Node(link.rhs.clone()) };
-        self.out.clauses.push(Clause { lhs, rel: link.rel, rhs, part: self.part, continued: self.continued });
+        let continued = self.continued;
+        self.out.clauses.push(Clause { lhs, rel: link.rel, rhs, part: self.part, continued, when: None });
         if !constant {
             self.out.last = Some(link.rhs.clone());
             self.continued = false;
@@ -250,8 +297,17 @@ fn is_words(node: &Node) -> bool {
     }
 }
 
+/// Whether words stand beside the mathematics of a side.
+fn holds_words(node: &Node) -> bool {
+    match &node.kind {
+        Kind::Text(_) => true,
+        Kind::Juxt(factors) => factors.iter().any(holds_words),
+        _ => false,
+    }
+}
+
 /// Whether a side is the word const., perhaps with a name given to it in brackets behind.
-fn is_constant(node: &Node) -> bool {
+pub(super) fn is_constant(node: &Node) -> bool {
     match &node.kind {
         Kind::Text(text) => text.trim().trim_end_matches('.').eq_ignore_ascii_case("const") || text.trim() == "一定",
         Kind::Function(name) => name == "const",
