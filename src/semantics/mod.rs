@@ -25,6 +25,7 @@ mod link;
 mod mean;
 mod motion;
 mod name;
+mod notes;
 mod poisson;
 mod power;
 mod quaternion;
