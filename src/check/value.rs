@@ -227,7 +227,7 @@ fn is_numeric(entry: &Entry, side: &Node) -> bool {
             _ => node.children().into_iter().all(|child| only_numbers(entry, child)),
         }
     }
-    only_numbers(entry, side) && !(numerals(side).is_empty() && !has_power_of_ten(side))
+    (has_power_of_ten(side) || !numerals(side).is_empty()) && only_numbers(entry, side)
 }
 
 fn is_unit_of_time(entry: &Entry, letter: &str) -> bool {
