@@ -37,6 +37,13 @@ impl Pair {
     }
 }
 
+/// Whether each pair is one of those that are given as equal, apart from what is nothing but itself.
+fn restates(branches: &[Branch], given: &[(Expr, Expr)]) -> bool {
+    let said = |pair: &&Pair| given.contains(&(pair.lhs, pair.rhs)) || given.contains(&(pair.rhs, pair.lhs));
+    let mut pairs = branches.iter().flatten().filter(|pair| pair.lhs != pair.rhs).peekable();
+    pairs.peek().is_some() && pairs.all(|pair| said(&pair))
+}
+
 /// The pairs of one branch of a link.
 pub type Branch = Vec<Pair>;
 
@@ -64,6 +71,8 @@ pub struct Claim {
     pub bound: BTreeSet<SymId>,
     /// What must be greater or less than zero at a state.
     pub ordered: Vec<(Rel, Expr)>,
+    /// Whether the premises say the same in as many terms: what holds then shows nothing.
+    pub restated: bool,
 }
 
 /// What premises state, of scalars.
@@ -155,9 +164,11 @@ impl<'b> Source<'b> {
             branches[0].extend(pairs(&mut world, &link, clause.rhs == Side::Constant));
         }
         let mut given = self.given(&mut world)?;
-        for clause in known {
+        let conditions = clauses.iter().flat_map(|clause| &clause.when);
+        for clause in conditions.chain(known) {
             self.add_clause(&mut world, self.scope(), clause, &mut given).map_err(Obstacle::Link)?;
         }
+        let restated = restates(&branches, &given.equal);
         given.equal.extend(world.integral_rates());
         let small = self.small(&mut world)?;
         let condition = self.condition(&mut world)?;
@@ -188,7 +199,20 @@ impl<'b> Source<'b> {
         world.check(&clause.lhs.span).map_err(Obstacle::Link)?;
         let (lhs_text, rhs_text) = typed.first().map(|l| (l.lhs_text.clone(), l.rhs_text.clone())).unwrap_or_default();
         let rel = clause.rel;
-        Ok(Claim { world, rel, branches, premises, solve, small, lhs_text, rhs_text, condition, bound, ordered })
+        Ok(Claim {
+            world,
+            rel,
+            branches,
+            premises,
+            solve,
+            small,
+            lhs_text,
+            rhs_text,
+            condition,
+            bound,
+            ordered,
+            restated,
+        })
     }
 
     pub(super) fn branches(&self, world: &mut World, scope: &Scope, clause: &Clause) -> Result<Vec<TypedLink>, Error> {
@@ -211,6 +235,7 @@ impl<'b> Source<'b> {
         for reference in entry.given(self.link) {
             self.add_equation(world, reference, &mut stated)?;
         }
+        self.add_data(world, &mut stated)?;
         self.add_assumed(world, &mut stated)?;
         Ok(stated)
     }
@@ -262,6 +287,8 @@ impl<'b> Source<'b> {
 
     /// Adds what a clause states, where it is an equation or says what is greater.
     fn add_clause(&self, world: &mut World, scope: &Scope, clause: &Clause, stated: &mut Stated) -> Result<(), Error> {
+        // What holds under a condition is given with it.
+        clause.when.iter().try_for_each(|condition| self.add_clause(world, scope, condition, stated))?;
         let ordered = matches!(clause.rel, Rel::Lt | Rel::Le | Rel::Gt | Rel::Ge);
         let equal = matches!(clause.rel, Rel::Eq | Rel::Equiv | Rel::Implies) || semantics::is_geometric(clause.rel);
         if !ordered && !equal {
@@ -349,9 +376,9 @@ impl<'b> Source<'b> {
     }
 
     fn condition(&self, world: &mut World) -> Result<Option<(Rel, Expr, Expr)>, Obstacle> {
-        let Some(text) = self.book.entries[self.index].annotation().and_then(|a| a.iff.as_ref()) else {
-            return Ok(None);
-        };
+        let Some(annotation) = self.book.entries[self.index].annotation() else { return Ok(None) };
+        let of_link = annotation.link.iter().find(|l| self.link.is_some_and(|k| k + 1 == l.number));
+        let Some(text) = of_link.and_then(|l| l.iff.as_ref()).or(annotation.iff.as_ref()) else { return Ok(None) };
         let obstacle = |message: String| Obstacle::Premise(text.value.clone(), message, text.span.clone());
         let tree = Formula::new(&text.value).tree.map_err(|e| broken(text, &e))?;
         let statement = semantics::statement(&tree, None).map_err(|e| unclear(text, &e))?;

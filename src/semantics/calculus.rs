@@ -59,7 +59,7 @@ impl Elaborator<'_> {
                 // By several variables: the tuple of the derivatives by each.
                 let each = variables.iter().map(|x| self.partial(&value, x, span)).collect::<Result<_>>()?;
                 value = Value::Tuple(each);
-            } else if name == "t" {
+            } else if name == "t" || self.is_time(variable) {
                 value = self.time_derivative(&value, 1);
             } else {
                 value = self.partial(&value, variable, span)?;
@@ -67,6 +67,18 @@ impl Elaborator<'_> {
             text = format!("d/d{name}({text})");
         }
         Ok(Typed::new(value, text))
+    }
+
+    /// Whether a symbol is another notation of the time.
+    fn is_time(&mut self, variable: &Node) -> bool {
+        let is_alias = self.entry(variable).is_some_and(|(e, _)| matches!(e.kind, EntryKind::Same(_)));
+        let value = if is_alias { self.value(variable).ok() } else { None };
+        match value.map(|typed| typed.value) {
+            Some(Value::Scalar(e)) => {
+                matches!(*self.world.graph.node(e), crate::expr::Node::Symbol(s) if self.world.graph.find("t") == Some(s))
+            }
+            _ => false,
+        }
     }
 
     /// The partial derivative of a value by a symbol.

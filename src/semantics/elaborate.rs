@@ -8,6 +8,7 @@ use crate::latex::to_latex;
 
 use super::complex;
 use super::error::{Error, Result};
+use super::juxtaposition::Item;
 use super::name::spelling;
 use super::quaternion;
 use super::scope::{Entry, EntryKind, Scope, pattern};
@@ -65,6 +66,9 @@ impl<'w> Elaborator<'w> {
     /// The value of an expression.
     pub fn value(&mut self, node: &Node) -> Result<Typed> {
         self.world.step(&node.span)?;
+        if let Some((angle, _)) = self.angle(&[Item::Factor(node)])? {
+            return Ok(angle);
+        }
         match &node.kind {
             Kind::Number(text) => self.number(text, &node.span),
             Kind::Symbol(_) | Kind::Styled(..) | Kind::Accent(..) | Kind::Scripts { .. } | Kind::Dots(..) => {
@@ -73,6 +77,7 @@ impl<'w> Elaborator<'w> {
             Kind::Juxt(_) | Kind::Product { .. } | Kind::Frac(..) => self.product(node),
             Kind::Sum(terms) => self.terms(terms),
             Kind::Sqrt { index, body } => self.root(index.as_deref(), body, &node.span),
+            Kind::Group { open: Delim::Angle, .. } if self.is_declared(node) => self.atom(node),
             Kind::Group { open, close, body } => self.group(*open, *close, body, &node.span),
             Kind::List(items) => self.tuple(items),
             Kind::Matrix { env: MatrixEnv::Cases, rows } => self.case(rows, node),
@@ -164,6 +169,9 @@ impl<'w> Elaborator<'w> {
     }
 
     fn group(&mut self, open: Delim, close: Delim, body: &Node, span: &Span) -> Result<Typed> {
+        if let Some(bracket) = self.poisson(open, body, span)? {
+            return Ok(bracket);
+        }
         let inner = self.value(body)?;
         match (open, close) {
             (Delim::Bar, Delim::Bar) | (Delim::DoubleBar, Delim::DoubleBar) => self.magnitude(&inner, span),
@@ -245,6 +253,14 @@ impl<'w> Elaborator<'w> {
                 let inner = self.value(body)?;
                 let value = self.time_derivative(&inner.value, u32::from(*n));
                 Ok(Typed::new(value, format!("\\{}ot{{{}}}", "d".repeat(usize::from(*n)), inner.text)))
+            }
+            Kind::Scripts { base, primes: 0, sub: Some(angles), sup: None }
+                if matches!(base.kind, Kind::Group { open: Delim::Angle, close: Delim::Angle, .. }) =>
+            {
+                match &base.kind {
+                    Kind::Group { body, .. } => self.mean(body, angles, &node.span),
+                    _ => Err(self.not_declared(node)),
+                }
             }
             Kind::Scripts { base, primes, sub, sup } => {
                 self.scripts(node, base, *primes, sub.as_deref(), sup.as_deref())

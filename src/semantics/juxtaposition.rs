@@ -24,6 +24,7 @@ use super::elliptic::is_name;
 use super::error::{Error, Result};
 use super::link::assignments;
 use super::quaternion;
+use super::sexagesimal;
 use super::value::{self, Value};
 use super::world::{Joint, Role};
 
@@ -174,6 +175,9 @@ impl Elaborator<'_> {
         if let Some(found) = self.legendre(items)? {
             return Ok(found);
         }
+        if let Some(found) = self.angle(items)? {
+            return Ok(found);
+        }
         let (head, sup) = head_and_power(node);
         match &head.kind {
             _ if complex::is_unit(head) => {
@@ -290,6 +294,9 @@ impl Elaborator<'_> {
     fn argument_length(&self, rest: &[Item]) -> usize {
         if matches!(rest.first(), Some(Item::Factor(n)) if is_bracket(n)) {
             return 1;
+        }
+        if let angle @ 1.. = sexagesimal::length(rest) {
+            return angle;
         }
         let mut used = 0;
         let mut only_numbers = true;

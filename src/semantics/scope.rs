@@ -125,6 +125,8 @@ pub struct Scope {
     pub natural_units: bool,
     /// The modulus of elliptic functions that are printed without one.
     pub modulus: Option<Node>,
+    /// The canonical variables of Poisson brackets: each momentum with its coordinate.
+    pub canonical: Vec<(Node, Node)>,
 }
 
 impl Scope {
@@ -188,6 +190,11 @@ impl Scope {
         self.natural_units = block.natural_units.unwrap_or(self.natural_units);
         if let Some(modulus) = &block.modulus {
             self.modulus = parse_name(modulus, &mut problems);
+        }
+        if !block.canonical.is_empty() {
+            let pairs = block.canonical.iter();
+            let read = pairs.filter_map(|(p, q)| Some((parse_name(p, &mut problems)?, parse_name(q, &mut problems)?)));
+            self.canonical = read.collect();
         }
         problems
     }

@@ -5,6 +5,8 @@ use crate::latex::to_latex;
 
 use super::error::{Error, Result};
 use super::geometric::is_geometric;
+use super::notes::at_braces;
+use super::ratio;
 use super::scope::Scope;
 
 /// One side of a link.
@@ -29,6 +31,8 @@ pub struct Clause {
     pub part: usize,
     /// Whether the left side is the last side of the equation before.
     pub continued: bool,
+    /// The conditions that stand beside it, as in a row of cases.
+    pub when: Vec<Clause>,
 }
 
 impl Clause {
@@ -38,7 +42,9 @@ impl Clause {
             Side::Node(n) => to_latex(n),
             Side::Constant => "\\text{const.}".to_owned(),
         };
-        format!("{} {} {rhs}", to_latex(&self.lhs), relation_latex(self.rel))
+        let when: Vec<String> = self.when.iter().map(Clause::latex).collect();
+        let when = if when.is_empty() { String::new() } else { format!(" \\quad ({})", when.join(", ")) };
+        format!("{} {} {rhs}{when}", to_latex(&self.lhs), relation_latex(self.rel))
     }
 }
 
@@ -64,6 +70,7 @@ pub fn statement(root: &Node, previous: Option<&Statement>) -> Result<Statement>
         builder.continued = true;
     }
     builder.add(root)?;
+    builder.braces(root);
     Ok(builder.out)
 }
 
@@ -76,6 +83,10 @@ struct Builder {
 
 impl Builder {
     fn add(&mut self, node: &Node) -> Result<()> {
+        if let (side, Some(cases @ Node { kind: Kind::Matrix { .. }, .. })) = without_aside(node) {
+            self.begin(&side);
+            return self.aside(cases);
+        }
         match &node.kind {
             Kind::Rows(rows) => rows.iter().try_for_each(|row| self.add(row)),
             Kind::List(items) => items.iter().try_for_each(|item| self.add(item)),
@@ -84,7 +95,7 @@ impl Builder {
             Kind::Matrix { env: MatrixEnv::Cases | MatrixEnv::Array, rows }
                 if rows.iter().flatten().any(holds_relation) =>
             {
-                rows.iter().filter_map(|row| row.first()).try_for_each(|cell| self.add(cell))
+                self.rows(rows)
             }
             Kind::Group { open: Delim::None | Delim::Brace, body, .. } if holds_relation(body) => self.add(body),
             Kind::Group { open: Delim::Paren, body, .. } if holds_relation(body) => self.aside(body),
@@ -98,6 +109,46 @@ impl Builder {
                 self.out.bare.push(node.clone());
                 Ok(())
             }
+        }
+    }
+
+    /// A row of an array: the cells behind the first continue it, or say when it is so.
+    fn row(&mut self, cells: &[Node]) -> Result<()> {
+        let before = self.out.clauses.len();
+        let mut open = None;
+        for (k, cell) in cells.iter().enumerate() {
+            if let Some(link) = open.take() {
+                self.link(&Link { rhs: cell.clone(), ..link })?;
+            } else if let (1.., Some(condition)) = (k, condition(cell)) {
+                let conditions = statement(condition, None)?.clauses;
+                self.out.clauses[before..].iter_mut().for_each(|clause| clause.when.extend(conditions.clone()));
+            } else {
+                self.add(cell)?;
+            }
+            open = open_relation(cell);
+        }
+        Ok(())
+    }
+
+    /// The rows of an array: statements of their own; or cases of one that stands before them, `f \begin{cases} > 0 ...`.
+    fn rows(&mut self, rows: &[Vec<Node>]) -> Result<()> {
+        let (last, head) = (self.out.last.clone(), self.out.head.clone());
+        let cases = last.is_some() && rows.iter().all(|row| begins(row));
+        for row in rows {
+            if cases {
+                (self.out.last, self.out.head) = (last.clone(), head.clone());
+            }
+            self.row(row)?;
+        }
+        Ok(())
+    }
+
+    /// What stands at braces is said of what they span.
+    fn braces(&mut self, root: &Node) {
+        for (lhs, link) in at_braces(root) {
+            let rhs = if is_constant(&link.rhs) { Side::Constant } else { Side::Node(link.rhs) };
+            let (part, continued, when) = (self.part, false, Vec::new());
+            self.out.clauses.push(Clause { lhs, rel: link.rel, rhs, part, continued, when });
         }
     }
 
@@ -118,6 +169,8 @@ impl Builder {
     }
 
     fn chain(&mut self, first: Option<&Node>, links: &[Link], node: &Node) -> Result<()> {
+        let folded = ratio::folded(first, links);
+        let (first, links) = folded.as_ref().map_or((first, links), |(f, l)| (f.as_ref(), l.as_slice()));
         match first {
             Some(first @ Node { kind: Kind::Annotated { .. }, .. }) if holds_relation(first) => self.add(first)?,
             Some(first) if !is_words(first) => self.begin(first),
@@ -133,6 +186,10 @@ impl Builder {
                 self.add(&link.rhs)?;
                 continue;
             }
+            if link.rel == Rel::Ratio && holds_words(&link.rhs) && !is_constant(&link.rhs) {
+                // What a symbol means, behind a colon.
+                continue;
+            }
             if matches!(link.rhs.kind, Kind::Empty) || is_words(&link.rhs) && !is_constant(&link.rhs) {
                 continue;
             }
@@ -146,17 +203,43 @@ impl Builder {
     }
 
     fn link(&mut self, link: &Link) -> Result<()> {
-        let Some(lhs) = self.out.last.clone() else { return Ok(()) };
+        let Some(mut lhs) = self.out.last.clone() else { return Ok(()) };
         // A row that the next one continues.
         self.out.bare.retain(|bare| bare.span != lhs.span);
-        let constant = is_constant(&link.rhs);
+        let mut constant = is_constant(&link.rhs);
+        if let Some(difference) = without_constant(&lhs, &link.rhs) {
+            (lhs, constant) = (difference, true);
+        }
         let rhs = if constant { Side::Constant } else { Side::Node(link.rhs.clone()) };
-        self.out.clauses.push(Clause { lhs, rel: link.rel, rhs, part: self.part, continued: self.continued });
+        self.out.clauses.push(Clause {
+            lhs,
+            rel: link.rel,
+            rhs,
+            part: self.part,
+            continued: self.continued,
+            when: Vec::new(),
+        });
         if !constant {
             self.out.last = Some(link.rhs.clone());
             self.continued = false;
         }
         Ok(())
+    }
+}
+
+/// The condition that a cell behind others states, in brackets or not; none where it continues them.
+fn condition(cell: &Node) -> Option<&Node> {
+    match &cell.kind {
+        Kind::Group { open: Delim::Paren, body, .. } => condition(body),
+        _ => (holds_relation(cell) && !begins_with_relation(cell)).then_some(cell),
+    }
+}
+
+/// The relation that a cell ends with: its right side is the next cell.
+fn open_relation(cell: &Node) -> Option<Link> {
+    match &cell.kind {
+        Kind::Chain { links, .. } => links.last().filter(|link| matches!(link.rhs.kind, Kind::Empty)).cloned(),
+        _ => None,
     }
 }
 
@@ -217,18 +300,18 @@ fn holds_relation(node: &Node) -> bool {
     }
 }
 
-/// A side without the statement in brackets behind it, and that statement: `f (= g)`, `0 (a \parallel b)`.
+/// A side without the statement behind it, and that statement: `f (= g)`, `0 (a \parallel b)`, `f \begin{cases} > 0 ...`.
 fn without_aside(side: &Node) -> (Node, Option<&Node>) {
     match &side.kind {
         Kind::Juxt(factors) => match factors.split_last() {
-            Some((Node { kind: Kind::Group { open: Delim::Paren, body, .. }, .. }, rest)) if holds_relation(body) => {
+            Some((last, rest)) if aside_of(last).is_some() && !rest.is_empty() => {
                 let kind = if rest.len() == 1 { rest[0].kind.clone() } else { Kind::Juxt(rest.to_vec()) };
                 let end = rest.last().map_or(side.span.end, |n| n.span.end);
-                (Node::new(kind, side.span.start..end), Some(body))
+                (Node::new(kind, side.span.start..end), aside_of(last))
             }
             _ => (side.clone(), None),
         },
-        // Behind the last term of a sum.
+        // Behind the last term of a sum, the last factor of a product.
         Kind::Sum(terms) => match terms.split_last() {
             Some((last, rest)) => {
                 let (node, aside) = without_aside(&last.node);
@@ -237,8 +320,32 @@ fn without_aside(side: &Node) -> (Node, Option<&Node>) {
             }
             None => (side.clone(), None),
         },
+        Kind::Product { first, rest } => match rest.split_last() {
+            Some(((op, last), before)) => {
+                let (node, aside) = without_aside(last);
+                let rest = before.iter().cloned().chain([(*op, node)]).collect();
+                (Node::new(Kind::Product { first: first.clone(), rest }, side.span.clone()), aside)
+            }
+            None => (side.clone(), None),
+        },
         _ => (side.clone(), None),
     }
+}
+
+/// The statement that a last factor is: one in brackets, or cases that begin with relations.
+fn aside_of(factor: &Node) -> Option<&Node> {
+    match &factor.kind {
+        Kind::Group { open: Delim::Paren, body, .. } if holds_relation(body) => Some(body),
+        Kind::Matrix { env: MatrixEnv::Cases | MatrixEnv::Array, rows } if rows.iter().all(|row| begins(row)) => {
+            Some(factor)
+        }
+        _ => None,
+    }
+}
+
+/// Whether a row of an array begins with a relation.
+fn begins(row: &[Node]) -> bool {
+    row.first().is_some_and(begins_with_relation)
 }
 
 /// Whether a side consists of words only.
@@ -250,8 +357,17 @@ fn is_words(node: &Node) -> bool {
     }
 }
 
+/// Whether words stand beside the mathematics of a side.
+fn holds_words(node: &Node) -> bool {
+    match &node.kind {
+        Kind::Text(_) => true,
+        Kind::Juxt(factors) => factors.iter().any(holds_words),
+        _ => false,
+    }
+}
+
 /// Whether a side is the word const., perhaps with a name given to it in brackets behind.
-fn is_constant(node: &Node) -> bool {
+pub(super) fn is_constant(node: &Node) -> bool {
     match &node.kind {
         Kind::Text(text) => text.trim().trim_end_matches('.').eq_ignore_ascii_case("const") || text.trim() == "一定",
         Kind::Function(name) => name == "const",
@@ -259,6 +375,24 @@ fn is_constant(node: &Node) -> bool {
         Kind::Juxt(factors) => factors.first().is_some_and(is_constant),
         _ => false,
     }
+}
+
+/// The left side minus all that is printed beside the word const. on the right, `n t + \text{const.}`.
+fn without_constant(lhs: &Node, rhs: &Node) -> Option<Node> {
+    let Kind::Sum(terms) = &rhs.kind else { return None };
+    let (constants, rest): (Vec<&Term>, Vec<&Term>) = terms.iter().partition(|t| is_constant(&t.node));
+    let opposite = |sign| match sign {
+        Sign::Plus => Sign::Minus,
+        Sign::Minus => Sign::Plus,
+        Sign::PlusMinus => Sign::MinusPlus,
+        Sign::MinusPlus => Sign::PlusMinus,
+    };
+    if constants.len() != 1 || rest.is_empty() {
+        return None;
+    }
+    let moved = rest.into_iter().map(|t| Term { sign: opposite(t.sign), ..t.clone() });
+    let first = Term { sign: Sign::Plus, sign_span: None, node: lhs.clone() };
+    Some(Node::new(Kind::Sum(std::iter::once(first).chain(moved).collect()), rhs.span.clone()))
 }
 
 /// Whether a formula has branches by ±.
