@@ -53,13 +53,21 @@ mod tests {
     use crate::semantics::testing::scope;
 
     fn left(latex: &str) -> String {
-        to_latex(&without_index_ranges(&parse(latex).unwrap(), &scope("[symbols]\n'j' = { index = [1, 2] }\n'x_j' = {}")))
+        to_latex(&without_index_ranges(
+            &parse(latex).unwrap(),
+            &scope("[symbols]\n'j' = { index = [1, 2] }\n'x_j' = {}"),
+        ))
     }
 
     #[test]
     fn values_as_declared_are_dropped() {
         assert_eq!(left(r"x_j = a \quad j = 1, 2"), to_latex(&parse("x_j = a").unwrap()));
-        assert_eq!(left(r"\left. \begin{aligned} x_j &= a \\ y_j &= b \end{aligned} \right\} \quad j = 1, 2, \quad c = d").matches('=').count(), 3);
+        assert_eq!(
+            left(r"\left. \begin{aligned} x_j &= a \\ y_j &= b \end{aligned} \right\} \quad j = 1, 2, \quad c = d")
+                .matches('=')
+                .count(),
+            3
+        );
     }
 
     #[test]
