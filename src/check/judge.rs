@@ -13,7 +13,7 @@ use super::claim::{Claim, Obstacle, Source, obstacle_text, unclear_text};
 use super::decide;
 use super::general;
 use super::law;
-use super::order;
+use super::order::{self, Measure};
 use super::trouble;
 use super::verdict::{Correction, DimensionStatus, Judgement, LinkJudgement, LostBits, Strength, Verdict};
 
@@ -365,7 +365,14 @@ pub(super) fn judge_link(
 
 fn link_verdict(source: &Source, clause: &Clause, scope: &Scope, known: &[Clause], options: &Options) -> LinkJudgement {
     let mut judgement = unjudged(clause);
+    let entry = &source.book.entries[source.index];
+    let small = entry.annotation().is_some_and(|a| a.small.is_some());
     let mapped = match clause.rel {
+        // With a small parameter an arrow leads to the limit, and only what is said to be near is near.
+        Rel::To if small && entry.annotation().is_some_and(|a| a.maps.is_none()) => {
+            Clause { rel: Rel::Eq, ..clause.clone() }
+        }
+        Rel::Approx if small => Clause { rel: Rel::Eq, ..clause.clone() },
         Rel::To => match source.mapped(clause) {
             None => {
                 judgement.reason =
@@ -384,16 +391,21 @@ fn link_verdict(source: &Source, clause: &Clause, scope: &Scope, known: &[Clause
     };
     match source.claim(&mapped, scope, known) {
         Err(obstacle) => obstructed(judgement, source, clause, &obstacle),
-        Ok(claim) => evaluate(judgement, claim, source, options),
+        Ok(claim) => evaluate(judgement, claim, clause.rel, source, options),
     }
 }
 
-fn evaluate(judgement: LinkJudgement, claim: Claim, source: &Source, options: &Options) -> LinkJudgement {
-    let name = format!("{}/{}", source.book.entries[source.index].equation.label, judgement.latex);
+/// Evaluates a claim that is made by a link with the relation `printed`.
+fn evaluate(judgement: LinkJudgement, claim: Claim, printed: Rel, source: &Source, options: &Options) -> LinkJudgement {
+    let entry = &source.book.entries[source.index];
+    let name = format!("{}/{}", entry.equation.label, judgement.latex);
+    let near = |clause: &Clause| matches!(clause.rel, Rel::Approx | Rel::To);
+    let told = source.book.statement(source.index, source.version).is_ok_and(|s| s.clauses.iter().any(near));
     match (claim.small, claim.rel) {
-        (Some(_), Rel::Eq | Rel::Equiv) => {
-            let claimed = source.book.entries[source.index].annotation().and_then(|a| a.order);
-            order::judge(judgement, claim, claimed, &name, options)
+        (Some(_), Rel::Eq | Rel::Equiv) if printed != Rel::Eq || !told => {
+            let claimed = entry.annotation().and_then(|a| a.order);
+            let measure = if printed == Rel::To { Measure::Absolute } else { Measure::Relative };
+            order::judge(judgement, claim, measure, claimed, &name, options)
         }
         (_, Rel::Lt | Rel::Le | Rel::Gt | Rel::Ge) => decide::inequality(judgement, claim, &name, options),
         _ => decide::equality(judgement, claim, &name, options),

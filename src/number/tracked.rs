@@ -3,7 +3,8 @@
 //!
 //! The promise: the exact result of the same operations on the exact operands differs from the value by at most the
 //! bound. It is not only of first order: slopes are taken at their largest within the operands' bounds, and where they
-//! have none (division by what may be zero, a root near zero) the bound is infinite. The bounds themselves are computed
+//! have none (division by what may be zero) the bound is infinite; a root of what may be zero moves by the root of the
+//! bound, as long as it has one at all. The bounds themselves are computed
 //! in machine numbers, and rounded up.
 
 use super::{Elliptic, Func, Number, Operation, Real, elliptic};
@@ -281,6 +282,16 @@ impl<N: Real> Number for Tracked<N> {
     }
     fn set_sqrt(&mut self, a: &Self) {
         self.value.set_sqrt(&a.value);
+        let radius = a.radius();
+        let x = a.value.to_f64();
+        if radius > 0.0 && radius.is_finite() && x.abs() <= radius {
+            // The exact operand may be zero. As it has a root it is between 0 and x + ea, and |√x - √y| ≤ √|x - y|.
+            if x < 0.0 {
+                self.value = a.value.like(0.0);
+            }
+            let error = radius.sqrt() * f64::exp2(f64::from(bits(&self.value).min(900)));
+            return self.close(error, N::rounding(Operation::Sqrt));
+        }
         let error = a.error_in(bits(&self.value));
         // √ over [a - ea, a + ea] moves by at most ea / (√a + √(a - ea)).
         let (low, _) = a.range();

@@ -77,7 +77,16 @@ impl Elaborator<'_> {
             let name = spelling(variable);
             return Err(Error::unsupported(format!("a derivative with respect to {name}, which is no symbol"), span));
         };
-        Ok(value.map(&mut |e| self.world.graph.diff(e, id)))
+        let mut along = false;
+        let derivative = value.map(&mut |e| {
+            let derivative = self.world.partial(e, id);
+            along |= derivative.is_none();
+            derivative.unwrap_or(e)
+        });
+        match along {
+            true => Err(Error::unsupported("a partial derivative of an integral along the motion", span)),
+            false => Ok(derivative),
+        }
     }
 
     /// The n-th derivative with respect to time.

@@ -309,11 +309,17 @@ impl<'w> Elaborator<'w> {
             let whole = self.value(base)?;
             return self.component(&whole, &basis, axis, &node.span);
         }
-        if let (0, Some(sub), Kind::Group { .. }) = (primes, sub, &base.kind)
-            && super::motion::is_start(sub)
-        {
-            let inner = self.value(base)?;
-            return Ok(self.started(&inner));
+        if let (0, Some(sub), Kind::Group { .. }) = (primes, sub, &base.kind) {
+            if super::motion::is_start(sub) {
+                let inner = self.value(base)?;
+                return Ok(self.started(&inner));
+            }
+            if let Some(there) = self.bracket_at(base, sub)? {
+                return Ok(there);
+            }
+        }
+        if let Some(delta) = self.kronecker(base, primes, sub)? {
+            return Ok(delta);
         }
         Err(self.not_declared(node))
     }

@@ -9,6 +9,7 @@
 //! [`Error`] with its place, never a guess; a mismatch of shapes is told apart from a missing declaration, because the
 //! first is the author's and the second is the annotator's.
 
+mod at;
 mod calculus;
 mod counting;
 mod elaborate;
@@ -16,11 +17,13 @@ mod elliptic;
 mod error;
 mod geometric;
 mod juxtaposition;
+mod kronecker;
 mod motion;
 mod name;
 mod power;
 mod quaternion;
 mod scope;
+mod signs;
 mod statement;
 mod terms;
 #[cfg(test)]
@@ -34,6 +37,7 @@ pub use error::{Error, ErrorKind};
 pub use geometric::is_geometric;
 pub use name::spelling;
 pub use scope::{Basis, Entry, EntryKind, Scope, pattern_of};
+pub use signs::independent_signs;
 pub use statement::{
     Clause, Instance, Side, Statement, TypedLink, begins_with_relation, every_value, has_branches, mentions,
     relation_latex, statement, understand,
