@@ -340,9 +340,13 @@ impl Elaborator<'_> {
             self.collect_letters(node, bound, found);
             let depth = self.aliases.get();
             if let (EntryKind::Same(other), true) = (&entry.kind, depth < MOST_ALIASES) {
+                // The letters of its own name stand for the indices that it is printed with.
+                let outside = bound.len();
+                bound.extend(entry.letters.iter().cloned());
                 self.aliases.set(depth + 1);
                 self.collect_indices(other, bound, found);
                 self.aliases.set(depth);
+                bound.truncate(outside);
             }
             return;
         }
