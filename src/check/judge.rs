@@ -104,10 +104,10 @@ pub fn blank(book: &Book, index: usize) -> Judgement {
     }
 }
 
-/// A printed misprint that is expected, and mended by a correction that holds, is no surprise; anything else that does
-/// not hold is.
+/// A printed misprint that is expected, and mended by a correction that holds, is no surprise, nor is a blank that is
+/// filled by one; anything else that does not hold is.
 fn as_expected(judgement: &Judgement) -> bool {
-    let correction_holds = judgement.correction.is_none() || judgement.is_erratum();
+    let correction_holds = judgement.correction.is_none() || judgement.is_mended();
     match judgement.expect {
         Some(expected) => judgement.verdict == expected && correction_holds,
         None => !matches!(judgement.verdict, Verdict::Fails | Verdict::Undecided | Verdict::Unreadable),

@@ -399,11 +399,13 @@ impl Judgement {
 
     /// A failing equation whose correction holds.
     pub fn is_erratum(&self) -> bool {
-        self.verdict == Verdict::Fails
-            && self
-                .correction
-                .as_ref()
-                .is_some_and(|c| matches!(c.verdict, Verdict::Holds | Verdict::Asymptotic | Verdict::Definition))
+        self.verdict == Verdict::Fails && self.is_mended()
+    }
+
+    /// Whether it has a correction that holds.
+    pub fn is_mended(&self) -> bool {
+        let holds = |c: &Correction| matches!(c.verdict, Verdict::Holds | Verdict::Asymptotic | Verdict::Definition);
+        self.correction.as_ref().is_some_and(holds)
     }
 }
 

@@ -302,6 +302,11 @@ impl<'w> Elaborator<'w> {
             let plain = self.value(&Node::new(kind, base.span.start..sub.map_or(base.span.end, |s| s.span.end)))?;
             return self.with_power(plain, sup, &node.span);
         }
+        if let (0, Some(sub), Kind::Group { .. }) = (primes, sub, &base.kind)
+            && let Some(there) = self.bracket_at(base, sub)?
+        {
+            return Ok(there);
+        }
         if let (0, Some(sub)) = (primes, sub)
             && let Some((basis, axis)) = self.scope.axis(&spelling(sub)).map(|(b, k)| (b.name.clone(), k))
             && (matches!(base.kind, Kind::Group { .. }) || self.is_declared(base))
@@ -309,14 +314,11 @@ impl<'w> Elaborator<'w> {
             let whole = self.value(base)?;
             return self.component(&whole, &basis, axis, &node.span);
         }
-        if let (0, Some(sub), Kind::Group { .. }) = (primes, sub, &base.kind) {
-            if super::motion::is_start(sub) {
-                let inner = self.value(base)?;
-                return Ok(self.started(&inner));
-            }
-            if let Some(there) = self.bracket_at(base, sub)? {
-                return Ok(there);
-            }
+        if let (0, Some(sub), Kind::Group { .. }) = (primes, sub, &base.kind)
+            && super::motion::is_start(sub)
+        {
+            let inner = self.value(base)?;
+            return Ok(self.started(&inner));
         }
         if let Some(delta) = self.kronecker(base, primes, sub)? {
             return Ok(delta);
