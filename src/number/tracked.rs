@@ -147,6 +147,12 @@ impl<N: Real> Tracked<N> {
     }
 }
 
+/// Whether a function is zero where its variable is, and is computed so.
+fn vanishes_at_zero(f: Func) -> bool {
+    use Func::*;
+    matches!(f, Sin | Tan | Asin | Atan | Sinh | Tanh | Asinh | Atanh | Abs | Sign)
+}
+
 /// The bits of the roundoff.
 fn bits<N: Number>(x: &N) -> u32 {
     N::precision_bits(&x.context())
@@ -245,6 +251,10 @@ impl<N: Real> Number for Tracked<N> {
         let quotient = magnitude(&self.value) * (1.0 + 1e-9) + f64::MIN_POSITIVE;
         let distance = ea + moved(quotient, eb);
         let low = b.range().0;
+        if a.is_zero() && low > 0.0 {
+            self.error = 0.0;
+            return;
+        }
         let propagated = if !b.within_reach() || low == 0.0 { f64::INFINITY } else { distance / low };
         self.close(propagated, rounding);
     }
@@ -305,6 +315,10 @@ impl<N: Real> Number for Tracked<N> {
     }
     fn set_call(&mut self, f: Func, a: &Self) {
         self.value.set_call(f, &a.value);
+        if a.is_zero() && vanishes_at_zero(f) {
+            self.error = 0.0;
+            return;
+        }
         let error = a.error_in(bits(&self.value));
         let lost = f == Func::Ln && !a.within_reach();
         let slope = Self::slope(f, a, &self.value);
