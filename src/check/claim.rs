@@ -170,6 +170,7 @@ impl<'b> Source<'b> {
         }
         let restated = restates(&branches, &given.equal);
         given.equal.extend(world.integral_rates());
+        given.equal.extend(world.moment.iter().copied());
         let small = self.small(&mut world)?;
         let condition = self.condition(&mut world)?;
         let solve = self.solve(&mut world)?;
@@ -216,11 +217,14 @@ impl<'b> Source<'b> {
     }
 
     pub(super) fn branches(&self, world: &mut World, scope: &Scope, clause: &Clause) -> Result<Vec<TypedLink>, Error> {
-        let both =
-            semantics::has_branches(&clause.lhs) || matches!(&clause.rhs, Side::Node(n) if semantics::has_branches(n));
-        let mut links = vec![semantics::understand(world, scope, clause, true)?];
-        if both {
-            links.push(semantics::understand(world, scope, clause, false)?);
+        let mut links = Vec::new();
+        for clause in semantics::independent_signs(clause) {
+            let both = semantics::has_branches(&clause.lhs)
+                || matches!(&clause.rhs, Side::Node(n) if semantics::has_branches(n));
+            links.push(semantics::understand(world, scope, &clause, true)?);
+            if both {
+                links.push(semantics::understand(world, scope, &clause, false)?);
+            }
         }
         Ok(links)
     }

@@ -85,7 +85,18 @@ impl Elaborator<'_> {
     fn partial(&mut self, value: &Value, variable: &Node, span: &Span) -> Result<Value> {
         let by = self.value(variable)?;
         let mut by_symbol = |x: Expr| match *self.world.graph.node(x) {
-            crate::expr::Node::Symbol(id) => Ok(value.map(&mut |e| self.world.graph.diff(e, id))),
+            crate::expr::Node::Symbol(id) => {
+                let mut along = false;
+                let derivative = value.map(&mut |e| {
+                    let derivative = self.world.partial(e, id);
+                    along |= derivative.is_none();
+                    derivative.unwrap_or(e)
+                });
+                match along {
+                    true => Err(Error::unsupported("a partial derivative of an integral along the motion", span)),
+                    false => Ok(derivative),
+                }
+            }
             _ => {
                 let name = spelling(variable);
                 Err(Error::unsupported(format!("a derivative with respect to {name}, which is no symbol"), span))

@@ -324,6 +324,11 @@ impl<'w> Elaborator<'w> {
             let plain = self.value(&Node::new(kind, base.span.start..sub.map_or(base.span.end, |s| s.span.end)))?;
             return self.with_power(plain, sup, &node.span);
         }
+        if let (0, Some(sub), Kind::Group { .. }) = (primes, sub, &base.kind)
+            && let Some(there) = self.bracket_at(base, sub)?
+        {
+            return Ok(there);
+        }
         if let (0, Some(sub)) = (primes, sub)
             && let Some((basis, axis)) = self.scope.axis(&spelling(sub)).map(|(b, k)| (b.name.clone(), k))
             && (matches!(base.kind, Kind::Group { .. }) || self.is_declared(base))
@@ -336,6 +341,9 @@ impl<'w> Elaborator<'w> {
         {
             let inner = self.value(base)?;
             return Ok(self.started(&inner));
+        }
+        if let Some(delta) = self.kronecker(base, primes, sub)? {
+            return Ok(delta);
         }
         Err(self.not_declared(node))
     }

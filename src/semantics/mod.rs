@@ -10,6 +10,7 @@
 //! first is the author's and the second is the annotator's.
 
 mod apply;
+mod at;
 mod calculus;
 mod complex;
 mod counting;
@@ -19,6 +20,7 @@ mod elliptic;
 mod error;
 mod geometric;
 mod juxtaposition;
+mod kronecker;
 mod legendre;
 mod limits;
 mod link;
@@ -33,6 +35,7 @@ mod ratio;
 mod remainder;
 mod scope;
 mod sexagesimal;
+mod signs;
 mod statement;
 mod terms;
 #[cfg(test)]
@@ -48,6 +51,7 @@ pub use link::{Instance, TypedLink, every_value, understand};
 pub use name::spelling;
 pub use remainder::without_remainder;
 pub use scope::{Basis, Entry, EntryKind, Scope, pattern_of};
+pub use signs::independent_signs;
 pub use statement::{Clause, Side, Statement, begins_with_relation, has_branches, mentions, relation_latex, statement};
 pub use terms::{PrintedTerm, printed_terms};
 pub use value::{Matrix, Value};
