@@ -1,5 +1,5 @@
 //! Values somewhere else: at the start of the motion, `X|_0`, `X|_0^t`; at a value of a symbol, `X|_{x = a}`,
-//! `[X]_{x = a}`; the difference between two values of a symbol, `X|_a^x`.
+//! `X|_{x \to a + x}`, `[X]_{x = a}`; the difference between two values of a symbol, `X|_a^x`.
 
 use std::collections::HashMap;
 
@@ -111,16 +111,21 @@ impl Elaborator<'_> {
             let message = "a value is put in the place of a symbol whose integral stands here";
             return Err(Error::unsupported(message, span));
         }
+        let symbols = self.world.graph.symbols(&inner.value.components());
+        if !symbols.iter().any(|s| map.contains_key(s)) {
+            return Err(Error::unsupported("the formula before the bar does not contain what is replaced", span)
+                .with_help("declare its symbols by formulas in it, with `same`"));
+        }
         let value = inner.value.map(&mut |e| self.world.graph.substitute(e, map));
         Ok(Typed::new(value, format!("{} at {there}", inner.text)))
     }
 }
 
-/// The name and the value of a condition x = a.
+/// The name and the value of a condition x = a, or of a replacement x → a.
 fn condition(node: &Node) -> Option<(&Node, &Node)> {
     match &node.kind {
         Kind::Chain { first: Some(name), links } => match links.as_slice() {
-            [link] if link.rel == Rel::Eq => Some((name, &link.rhs)),
+            [link] if matches!(link.rel, Rel::Eq | Rel::To) => Some((name, &link.rhs)),
             _ => None,
         },
         Kind::Group { body, .. } => condition(body),
@@ -130,7 +135,7 @@ fn condition(node: &Node) -> Option<(&Node, &Node)> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::testing::{scope, value};
+    use super::super::testing::{same, scope, value};
     use super::super::{Value, World};
     use super::*;
 
@@ -179,5 +184,16 @@ mod tests {
         for latex in [r"\left. \dot{x} \right|_c^x", r"\left[ \int_0^t x dt \right]_{x = c}", r"[x]_{2x = c}"] {
             assert!(value(&mut World::new(), &scope(SYMBOLS), latex).is_err(), "{latex}");
         }
+    }
+
+    #[test]
+    fn symbols_are_replaced_by_formulas() {
+        const FORMULA: &str = "[symbols]\n'a, b, x' = {}\n'f' = { same = '(a \\sin x)' }";
+        assert!(same(FORMULA, r"f \Big|_{x \rightarrow x + \frac{\pi}{2}}", r"a \cos x"));
+        assert!(same(FORMULA, r"\left. x^2 + b x \right|_{x = 2}", r"4 + 2b"));
+        assert!(!same(FORMULA, r"f \Big|_{x \rightarrow x + \pi}", "f"));
+        let error = value(&mut World::new(), &scope(FORMULA), r"f \Big|_{b = 2}").unwrap_err();
+        assert!(error.message.contains("does not contain"), "{error:?}");
+        assert!(value(&mut World::new(), &scope(FORMULA), r"f \Big|_{f = 2}").is_err());
     }
 }
