@@ -14,6 +14,8 @@ use super::decide;
 use super::general;
 use super::law;
 use super::order;
+use super::remark;
+use super::stateless;
 use super::trouble;
 use super::value;
 use super::verdict::{Correction, DimensionStatus, Judgement, LinkJudgement, LostBits, Strength, Verdict};
@@ -105,7 +107,7 @@ pub fn blank(book: &Book, index: usize) -> Judgement {
     }
 }
 
-/// A printed misprint that is expected, and mended by a correction that holds, is no surprise; anything else that does
+/// A misprint that is expected, and mended by a correction that holds, is no surprise; anything else that does
 /// not hold is.
 fn as_expected(judgement: &Judgement) -> bool {
     let correction_holds = judgement.correction.is_none() || judgement.is_erratum();
@@ -183,7 +185,8 @@ pub fn judge_tree(book: &Book, index: usize, tree: &Node, options: &Options) -> 
 pub(super) fn judge_statement(source: &Source, statement: &Statement, options: &Options) -> Outcome {
     let (book, index, version) = (source.book, source.index, source.version);
     let entry = &book.entries[index];
-    if statement.clauses.is_empty() {
+    let is_statement = entry.annotation().and_then(|a| a.kind.as_ref()).is_some_and(|k| k.value == "statement");
+    if statement.clauses.is_empty() || is_statement && statement.clauses.iter().all(remark::is_remark) {
         return nothing_to_evaluate(entry, version);
     }
     if !entry.list(|a| &a.solves).is_empty() {
@@ -213,6 +216,13 @@ pub(super) fn judge_statement(source: &Source, statement: &Statement, options: &
             }
         }
     }
+    links.extend(
+        statement
+            .bare
+            .iter()
+            .filter(|bare| !stateless::is_remark(&entry.scope, bare))
+            .map(|bare| stateless::undecided(source, bare)),
+    );
     Outcome::of(links)
 }
 
@@ -329,7 +339,7 @@ fn definition(clause: &Clause) -> LinkJudgement {
 }
 
 /// A judgement on a clause that says nothing yet.
-fn unjudged(clause: &Clause) -> LinkJudgement {
+pub(super) fn unjudged(clause: &Clause) -> LinkJudgement {
     LinkJudgement {
         latex: clause.latex(),
         verdict: Verdict::Undecided,
@@ -345,6 +355,7 @@ fn unjudged(clause: &Clause) -> LinkJudgement {
         exact: None,
         inexact: None,
         lost_bits: None,
+        restated: false,
     }
 }
 
@@ -399,6 +410,12 @@ fn link_verdict(source: &Source, clause: &Clause, scope: &Scope, known: &[Clause
 }
 
 fn evaluate(judgement: LinkJudgement, claim: Claim, source: &Source, options: &Options) -> LinkJudgement {
+    let restated = claim.restated;
+    let judged = by_relation(judgement, claim, source, options);
+    LinkJudgement { restated: restated && judged.verdict == Verdict::Holds, ..judged }
+}
+
+fn by_relation(judgement: LinkJudgement, claim: Claim, source: &Source, options: &Options) -> LinkJudgement {
     let name = format!("{}/{}", source.book.entries[source.index].equation.label, judgement.latex);
     match (claim.small, claim.rel) {
         (Some(_), Rel::Eq | Rel::Equiv) => {

@@ -262,6 +262,8 @@ pub struct LinkJudgement {
     pub inexact: Option<String>,
     /// What the side that is worse in doubles loses, for an equality.
     pub lost_bits: Option<LostBits>,
+    /// Whether it holds because a premise says the same in as many terms.
+    pub restated: bool,
 }
 
 /// The formula that should have been printed, with the judgement on it.
@@ -397,9 +399,19 @@ impl Judgement {
         problems
     }
 
-    /// A failing equation whose correction holds.
+    /// Whether all that holds of these links is what a premise says in as many terms: that they hold shows nothing.
+    pub fn only_restates(links: &[LinkJudgement]) -> bool {
+        let holds = |link: &&LinkJudgement| matches!(link.verdict, Verdict::Holds | Verdict::Asymptotic);
+        let mut holding = links.iter().filter(holds).peekable();
+        holding.peek().is_some() && holding.all(|link| link.restated)
+    }
+
+    /// An equation that fails while its correction holds; or one that the print has lost so much of that it cannot be
+    /// judged, where the annotation expects that and gives a correction that holds.
     pub fn is_erratum(&self) -> bool {
-        self.verdict == Verdict::Fails
+        let lost =
+            matches!(self.verdict, Verdict::Undecided | Verdict::Unreadable) && self.expect == Some(self.verdict);
+        (self.verdict == Verdict::Fails || lost)
             && self
                 .correction
                 .as_ref()

@@ -6,9 +6,9 @@ use crate::latex::ast::{BigOp, Font, Kind, Node, Rel, Span};
 use super::elaborate::{Elaborator, MOST_ALIASES, Typed};
 use super::error::{Error, Result};
 use super::juxtaposition::Item;
+use super::link::{MOST_ASSIGNMENTS, assignments, too_many};
 use super::name::spelling;
 use super::scope::{Basis, EntryKind};
-use super::statement::{MOST_ASSIGNMENTS, assignments, too_many};
 use super::units::Dimension;
 use super::value::{self, Matrix, Value};
 use super::world::{Facts, Quantity};
@@ -67,29 +67,6 @@ impl Elaborator<'_> {
             text = format!("d/d{name}({text})");
         }
         Ok(Typed::new(value, text))
-    }
-
-    /// Whether a symbol is another notation of the time.
-    fn is_time(&mut self, variable: &Node) -> bool {
-        let is_alias = self.entry(variable).is_some_and(|(e, _)| matches!(e.kind, EntryKind::Same(_)));
-        let value = if is_alias { self.value(variable).ok() } else { None };
-        match value.map(|typed| typed.value) {
-            Some(Value::Scalar(e)) => {
-                matches!(*self.world.graph.node(e), crate::expr::Node::Symbol(s) if self.world.graph.find("t") == Some(s))
-            }
-            _ => false,
-        }
-    }
-
-    /// The partial derivative of a value by a symbol.
-    fn partial(&mut self, value: &Value, variable: &Node, span: &Span) -> Result<Value> {
-        let x = self.value(variable)?;
-        let x = self.scalar(&x, span)?;
-        let crate::expr::Node::Symbol(id) = *self.world.graph.node(x) else {
-            let name = spelling(variable);
-            return Err(Error::unsupported(format!("a derivative with respect to {name}, which is no symbol"), span));
-        };
-        Ok(value.map(&mut |e| self.world.graph.diff(e, id)))
     }
 
     /// The n-th derivative with respect to time.

@@ -16,9 +16,11 @@ mod elliptic;
 mod error;
 mod geometric;
 mod juxtaposition;
+mod link;
 mod mean;
 mod motion;
 mod name;
+mod partial;
 mod poisson;
 mod power;
 mod quaternion;
@@ -36,12 +38,10 @@ mod world;
 pub use elaborate::{Elaborator, Typed};
 pub use error::{Error, ErrorKind};
 pub use geometric::is_geometric;
+pub use link::{Instance, TypedLink, every_value, understand};
 pub use name::spelling;
 pub use scope::{Basis, Entry, EntryKind, Scope, pattern_of};
-pub use statement::{
-    Clause, Instance, Side, Statement, TypedLink, begins_with_relation, every_value, has_branches, mentions,
-    relation_latex, statement, understand,
-};
+pub use statement::{Clause, Side, Statement, begins_with_relation, has_branches, mentions, relation_latex, statement};
 pub use terms::{PrintedTerm, printed_terms};
 pub use value::{Matrix, Value};
 pub use world::{Facts, Joint, Quantity, Role, World};
