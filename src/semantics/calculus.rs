@@ -455,9 +455,14 @@ fn several(variable: &Node) -> Option<&[Node]> {
 
 fn variable_and_order(node: &Node) -> (Node, usize) {
     match &node.kind {
-        Kind::Scripts { base, primes: 0, sub: None, sup: Some(sup) } => match small_integer(sup) {
-            Some(n) => (base.as_ref().clone(), n),
-            None => (node.clone(), 1),
+        Kind::Scripts { base, primes, sub, sup: Some(sup) } => match (small_integer(sup), *primes, sub) {
+            (Some(n), 0, None) => (base.as_ref().clone(), n),
+            // Twice by x' or x_1.
+            (Some(n), ..) => {
+                let kind = Kind::Scripts { base: base.clone(), primes: *primes, sub: sub.clone(), sup: None };
+                (Node::new(kind, node.span.clone()), n)
+            }
+            (None, ..) => (node.clone(), 1),
         },
         _ => (node.clone(), 1),
     }
