@@ -377,9 +377,9 @@ impl<'b> Source<'b> {
     }
 
     fn condition(&self, world: &mut World) -> Result<Option<(Rel, Expr, Expr)>, Obstacle> {
-        let Some(text) = self.book.entries[self.index].annotation().and_then(|a| a.iff.as_ref()) else {
-            return Ok(None);
-        };
+        let Some(annotation) = self.book.entries[self.index].annotation() else { return Ok(None) };
+        let of_link = annotation.link.iter().find(|l| self.link.is_some_and(|k| k + 1 == l.number));
+        let Some(text) = of_link.and_then(|l| l.iff.as_ref()).or(annotation.iff.as_ref()) else { return Ok(None) };
         let obstacle = |message: String| Obstacle::Premise(text.value.clone(), message, text.span.clone());
         let tree = Formula::new(&text.value).tree.map_err(|e| broken(text, &e))?;
         let statement = semantics::statement(&tree, None).map_err(|e| unclear(text, &e))?;

@@ -14,7 +14,7 @@
 //! [`prefix`](super::Equation::prefix). Rows of an `aligned` with an empty label belong to the
 //! label below, `rows = ["", "", "411", "", "412"]`. An annotation with no other key than `rows` belongs to none of them.
 //!
-//! `[link.2]` with `given` or `where` holds premises of the second link alone (of a chain a = b = c, b = c). What follows from
+//! `[link.2]` with `given`, `where` or `iff` is about the second link alone (of a chain a = b = c, b = c). What follows from
 //! no law should be judged without it: with dω/dt = 0 given, I dω/dt = d(Iω)/dt would hold whatever the factors.
 
 use super::declaration::{KEYS as DECLARATION_KEYS, SymbolDeclaration, symbols};
@@ -85,6 +85,8 @@ pub struct LinkPremises {
     pub given: Vec<Spanned<String>>,
     /// `where`: premises that the prose states.
     pub where_: Vec<Spanned<String>>,
+    /// The statement that the link is equivalent to.
+    pub iff: Option<Spanned<String>>,
 }
 
 /// The keys of an equation's annotation, those of declarations not included.
@@ -220,7 +222,8 @@ fn links(key: &Spanned<String>, value: &Value, reader: &mut Reader) -> Vec<LinkP
             match key.value.as_str() {
                 "given" => premises.given = reader.texts(key, value),
                 "where" => premises.where_ = reader.texts(key, value),
-                _ => reader.unknown(key, "a link", &["given", "where"]),
+                "iff" => premises.iff = reader.text(key, value),
+                _ => reader.unknown(key, "a link", &["given", "where", "iff"]),
             }
         }
         found.push(premises);

@@ -62,6 +62,8 @@ pub struct SymbolDeclaration {
     pub each: Vec<Spanned<String>>,
     /// It is an index, and runs from the first to the second number.
     pub index: Option<[i64; 2]>,
+    /// The distance between the values of an index: 2 for a sign, from -1 to 1.
+    pub step: Option<usize>,
     /// It is a function, with these arguments.
     pub function: Option<Arguments>,
     /// It is another notation for this symbol.
@@ -108,7 +110,7 @@ pub struct BasisDeclaration {
 
 pub(super) const KEYS: [&str; 6] = ["symbols", "basis", "assume", "natural_units", "modulus", "canonical"];
 
-const SYMBOL_KEYS: [&str; 13] = [
+const SYMBOL_KEYS: [&str; 14] = [
     "unit",
     "range",
     "of",
@@ -117,6 +119,7 @@ const SYMBOL_KEYS: [&str; 13] = [
     "basis",
     "each",
     "index",
+    "step",
     "function",
     "same",
     "component_of",
@@ -170,6 +173,7 @@ fn symbol(name: &Spanned<String>, value: &Value, reader: &mut Reader) -> SymbolD
             "basis" => symbol.basis = reader.text(key, value),
             "each" => symbol.each = reader.texts(key, value),
             "index" => symbol.index = reader.index_range(key, value),
+            "step" => symbol.step = reader.count(key, value),
             "function" => symbol.function = arguments(key, value, reader),
             "same" => symbol.same = reader.text(key, value),
             "component_of" => symbol.component_of = reader.text(key, value),

@@ -58,6 +58,7 @@ fn component_name(value: &Value, k: usize) -> String {
     match value {
         Value::Vector(_) => format!("{} component (inertial)", ["x", "y", "z"][k % 3]),
         Value::Quaternion(..) => ["scalar part", "x component", "y component", "z component"][k % 4].to_owned(),
+        Value::Complex(..) => ["real part", "imaginary part"][k % 2].to_owned(),
         Value::Matrix(m) if m.cols == 1 => format!("row {}", k + 1),
         Value::Matrix(m) => format!("entry {},{}", k / m.cols + 1, k % m.cols + 1),
         _ => format!("part {}", k + 1),
@@ -134,6 +135,8 @@ fn meet(elaborator: &mut Elaborator, lhs: Value, rhs: Value, clause: &Clause) ->
     Ok(match (lhs, rhs) {
         (lhs, Value::Constant) => (lhs, Value::Constant),
         (Value::Scalar(a), Value::Scalar(b)) => (Value::Scalar(a), Value::Scalar(b)),
+        (Value::Scalar(a), Value::Complex(re, im)) => (Value::Complex(a, zero), Value::Complex(re, im)),
+        (Value::Complex(re, im), Value::Scalar(b)) => (Value::Complex(re, im), Value::Complex(b, zero)),
         (lhs, rhs) if rhs.is_zero_scalar(&elaborator.world.graph) => {
             let null = lhs.map(&mut |_| zero);
             (lhs, null)
@@ -190,13 +193,14 @@ pub(super) fn assignments(scope: &Scope, letters: &[String], span: &Span) -> Res
     let mut all = vec![Vec::new()];
     for letter in letters {
         let Some((from, to)) = scope.index(letter) else { continue };
-        let count = (i128::from(to) - i128::from(from) + 1) * all.len() as i128;
+        let step = scope.get(letter).map_or(1, |entry| entry.step);
+        let count = ((i128::from(to) - i128::from(from)) / step as i128 + 1) * all.len() as i128;
         if count > MOST_ASSIGNMENTS {
             return Err(too_many(&format!("what runs over {}", letters.join(", ")), count, span));
         }
         let mut next = Vec::new();
         for assignment in &all {
-            for v in from..=to {
+            for v in (from..=to).step_by(step) {
                 let mut longer: Vec<(String, i64)> = assignment.clone();
                 longer.push((letter.clone(), v));
                 next.push(longer);

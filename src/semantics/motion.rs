@@ -1,5 +1,5 @@
 //! Integrals along the motion and values at its start: `\int_0^t F\,dt`, `\int \vec{f} \cdot d\vec{r}`, `(X)_0`,
-//! `X|_0^t`.
+//! `X|_0^t`, and values where a symbol has another, `X|_{x = y}`.
 //!
 //! What holds for all times is what holds at the start and has the same rate on both sides ever after. An integral is a
 //! symbol of its own that depends on time, of which the world knows the rate, and that is zero at the start; a value at
@@ -7,8 +7,8 @@
 
 use std::collections::HashMap;
 
-use crate::expr::{Expr, SymId};
-use crate::latex::ast::{Kind, Node, Span};
+use crate::expr::{self, Expr, SymId};
+use crate::latex::ast::{Kind, Link, Node, Rel, Span};
 
 use super::elaborate::{Elaborator, Typed};
 use super::error::{Error, Result};
@@ -152,10 +152,31 @@ impl Elaborator<'_> {
         Typed::new(inner.value.map(&mut |e| self.world.at_start(e)), format!("{}_0", inner.text))
     }
 
+    /// `X|_{x = y}`: what X is where x has the value y. Rates of x are not put in: they are those at that moment.
+    fn with_value(&mut self, body: &Node, name: &Node, value: &Node, span: &Span) -> Result<Typed> {
+        let (inner, name, value) = (self.value(body)?, self.value(name)?, self.value(value)?);
+        let (names, values) = (name.value.components(), value.value.components());
+        let symbol = |e: &Expr| match *self.world.graph.node(*e) {
+            expr::Node::Symbol(s) => Some(s),
+            _ => None,
+        };
+        let symbols: Option<Vec<SymId>> = names.iter().map(symbol).collect();
+        let Some(symbols) = symbols.filter(|symbols| symbols.len() == values.len()) else {
+            return Err(Error::unsupported("a value is put in for a symbol of its own, of the same shape", span));
+        };
+        let map = symbols.into_iter().zip(values).collect();
+        let put_in = inner.value.map(&mut |e| self.world.graph.substitute(e, &map));
+        Ok(Typed::new(put_in, format!("({} at {} = {})", inner.text, name.text, value.text)))
+    }
+
     /// `X|_0` and `X|_0^t`.
     pub(super) fn evaluated_at(&mut self, body: &Node, at: &Node, span: &Span) -> Result<Typed> {
         let limits = match &at.kind {
             Kind::Scripts { base, primes: 0, sub: Some(sub), sup } if base.kind == Kind::Empty => (sub, sup),
+            Kind::Chain { first: Some(name), links } => match links.as_slice() {
+                [Link { rel: Rel::Eq, rhs, .. }] => return self.with_value(body, name, rhs, span),
+                _ => return Err(Error::unsupported("a value at this condition is not evaluated yet", span)),
+            },
             _ => return Err(Error::unsupported("a value at a condition is not evaluated yet", span)),
         };
         if !is_start(limits.0) {

@@ -28,7 +28,18 @@ impl Elaborator<'_> {
                 };
                 items.iter().map(by).collect::<Result<_>>().map(Value::Tuple)
             }
-            other => Err(Error::shape(format!("expected a scalar, found {}", other.shape()), span)),
+            // The gradient.
+            Value::Vector(v) if matches!(value, Value::Scalar(_)) => {
+                let parts = v.iter().map(|x| self.by_scalar(value, *x, variable, span)).collect::<Result<Vec<_>>>()?;
+                match parts.as_slice() {
+                    [Value::Scalar(x), Value::Scalar(y), Value::Scalar(z)] => Ok(Value::Vector([*x, *y, *z])),
+                    _ => Err(Error::shape("a gradient has three components", span)),
+                }
+            }
+            other => {
+                let message = format!("the derivative of {} by {}", value.shape(), other.shape());
+                Err(Error::unsupported(format!("{message} is not evaluated yet"), span))
+            }
         }
     }
 

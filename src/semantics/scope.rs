@@ -73,6 +73,8 @@ pub struct Entry {
     pub declared: usize,
     /// Whether it takes integers only.
     pub integer: bool,
+    /// The distance between the values of an index.
+    pub step: usize,
     /// The indices it has one value for each of that are not printed: the j of \\sum m r^2.
     pub hidden: Vec<String>,
     /// The indices that its name prints, in their order.
@@ -251,6 +253,7 @@ impl Scope {
                 dimension,
                 declared: name.span.start,
                 integer: d.integer,
+                step: d.step.unwrap_or(1).max(1),
                 hidden,
                 letters,
                 arguments: arguments.clone(),
@@ -328,6 +331,7 @@ impl Entry {
             dimension: None,
             declared: 0,
             integer: false,
+            step: 1,
             hidden: Vec::new(),
             letters: Vec::new(),
             arguments: Vec::new(),

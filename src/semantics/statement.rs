@@ -5,6 +5,7 @@ use crate::latex::to_latex;
 
 use super::error::{Error, Result};
 use super::geometric::is_geometric;
+use super::notes::at_braces;
 use super::ratio;
 use super::scope::Scope;
 
@@ -41,7 +42,9 @@ impl Clause {
             Side::Node(n) => to_latex(n),
             Side::Constant => "\\text{const.}".to_owned(),
         };
-        format!("{} {} {rhs}", to_latex(&self.lhs), relation_latex(self.rel))
+        let when: Vec<String> = self.when.iter().map(Clause::latex).collect();
+        let when = if when.is_empty() { String::new() } else { format!(" \\quad ({})", when.join(", ")) };
+        format!("{} {} {rhs}{when}", to_latex(&self.lhs), relation_latex(self.rel))
     }
 }
 
@@ -67,6 +70,7 @@ pub fn statement(root: &Node, previous: Option<&Statement>) -> Result<Statement>
         builder.continued = true;
     }
     builder.add(root)?;
+    builder.braces(root);
     Ok(builder.out)
 }
 
@@ -145,6 +149,15 @@ impl Builder {
         Ok(())
     }
 
+    /// What stands at braces is said of what they span.
+    fn braces(&mut self, root: &Node) {
+        for (lhs, link) in at_braces(root) {
+            let rhs = if is_constant(&link.rhs) { Side::Constant } else { Side::Node(link.rhs) };
+            let (part, continued, when) = (self.part, false, Vec::new());
+            self.out.clauses.push(Clause { lhs, rel: link.rel, rhs, part, continued, when });
+        }
+    }
+
     /// What is said in brackets: a statement of its own, or a last link, `f (= g)`. What follows does not continue it.
     fn aside(&mut self, body: &Node) -> Result<()> {
         let (last, head) = (self.out.last.clone(), self.out.head.clone());
@@ -177,6 +190,10 @@ impl Builder {
         for (k, link) in links.iter().enumerate() {
             if separates(links, k) {
                 self.add(&link.rhs)?;
+                continue;
+            }
+            if link.rel == Rel::Ratio && holds_words(&link.rhs) && !is_constant(&link.rhs) {
+                // What a symbol means, behind a colon.
                 continue;
             }
             if matches!(link.rhs.kind, Kind::Empty) || is_words(&link.rhs) && !is_constant(&link.rhs) {
@@ -342,6 +359,15 @@ pub(super) fn is_words(node: &Node) -> bool {
     match &node.kind {
         Kind::Text(_) => true,
         Kind::Juxt(factors) => factors.iter().all(is_words),
+        _ => false,
+    }
+}
+
+/// Whether words stand beside the mathematics of a side.
+fn holds_words(node: &Node) -> bool {
+    match &node.kind {
+        Kind::Text(_) => true,
+        Kind::Juxt(factors) => factors.iter().any(holds_words),
         _ => false,
     }
 }
