@@ -8,7 +8,8 @@ use super::statement::{holds_relation, is_constant, is_words};
 /// A chain with every ratio of two sides written as their quotient; `None` where it has none. Longer ones, `a : b : c`, are
 /// no quotients and stay.
 pub(super) fn folded(first: Option<&Node>, links: &[Link]) -> Option<(Option<Node>, Vec<Link>)> {
-    let is_ratio = |k: usize| links.get(k).is_some_and(|l| l.rel == Rel::Ratio);
+    // Behind a colon words say what is meant.
+    let is_ratio = |k: usize| links.get(k).is_some_and(|l| l.rel == Rel::Ratio && !is_words(&l.rhs));
     let apart = (0..links.len()).all(|k| !is_ratio(k) || !is_ratio(k + 1));
     if !(0..links.len()).any(is_ratio) || !apart || (is_ratio(0) && first.is_none()) {
         return None;
