@@ -18,6 +18,7 @@ mod lost;
 mod newton;
 mod order;
 mod premises;
+mod proportion;
 mod random;
 mod remark;
 mod sameness;

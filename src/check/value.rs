@@ -181,18 +181,17 @@ fn compared(
     })
 }
 
-/// Whether the sides have the same values at all states, and so do not depend on what is still free: C - A in units of C.
+/// Whether the sides are in the same ratio at all states, and so do not depend on what is still free: C - A in units of C, a
+/// rate in units of the day.
 fn is_one_number(sampler: &Sampler, states: &[State]) -> bool {
     let mut work = Workspace::default();
-    let mut values = states.iter().map(|state| {
+    let mut ratios = states.iter().map(|state| {
         let values = sampler.evaluate::<Df64>(state, &(), &mut work)?;
         let value = values.first()?.first()?;
-        Some([value.lhs.value().to_f64(), value.rhs.value().to_f64()])
+        Some(value.lhs.value().to_f64() / value.rhs.value().to_f64())
     });
-    let Some(Some(first)) = values.next() else { return false };
-    let same =
-        |at: Option<[f64; 2]>| at.is_some_and(|at| (0..2).all(|k| (at[k] - first[k]).abs() <= SLACK * first[k].abs()));
-    states.len() > 1 && values.all(|at| same(at))
+    let Some(Some(first)) = ratios.next() else { return false };
+    states.len() > 1 && ratios.all(|ratio| ratio.is_some_and(|ratio| (ratio - first).abs() <= SLACK * first.abs()))
 }
 
 /// How far the other side may be away, and the rule in words.
@@ -350,7 +349,12 @@ impl Source<'_> {
         let entry = &self.book.entries[self.index];
         let Some(annotation) = entry.annotation() else { return Ok(()) };
         for (name, value) in &annotation.data {
-            let (symbol, number) = (self.symbol(world, name)?, self.symbol(world, value)?);
+            let symbol = self.symbol(world, name)?;
+            // A number of TOML has its exponent behind an e.
+            let number = match world.graph.decimal(&value.value) {
+                Some(number) => Value::Scalar(number),
+                None => self.symbol(world, value)?,
+            };
             let wrong = |message: &str| Obstacle::Premise(name.value.clone(), message.into(), name.span.clone());
             match (&symbol, &number) {
                 (Value::Scalar(s), Value::Scalar(x)) if matches!(world.graph.node(*s), Op::Symbol(_)) => {
