@@ -12,6 +12,7 @@ use crate::semantics::{self, Clause, Elaborator, Error, Scope, Side, TypedLink, 
 
 use super::book::{Book, Formula, Unclear, Version};
 use super::premises::Premises;
+use super::proportion;
 
 /// How deep values at the start of the motion may be made of others.
 const MOST_STARTS: usize = 16;
@@ -32,7 +33,7 @@ pub struct Pair {
 }
 
 impl Pair {
-    fn new(graph: &mut Graph, name: Option<String>, lhs: Expr, rhs: Expr) -> Self {
+    pub(super) fn new(graph: &mut Graph, name: Option<String>, lhs: Expr, rhs: Expr) -> Self {
         Pair { name, lhs, rhs, residual: graph.sub(lhs, rhs), start: false }
     }
 }
@@ -171,6 +172,7 @@ impl<'b> Source<'b> {
         let restated = restates(&branches, &given.equal);
         given.equal.extend(world.integral_rates());
         given.equal.extend(world.moment.iter().copied());
+        given.ordered.extend(world.precise().iter().map(|e| (Rel::Gt, *e)));
         let small = self.small(&mut world)?;
         let condition = self.condition(&mut world)?;
         let solve = self.solve(&mut world)?;
@@ -184,6 +186,12 @@ impl<'b> Source<'b> {
         let printed: Vec<Expr> = branches.iter().flatten().map(|pair| pair.residual).collect();
         let mentioned = world.graph.symbols(&printed);
         resolve(&mut world, &premises, &mut branches, typed.first().map(|link| link.rel));
+        if typed.first().is_some_and(|link| link.rel == Rel::Propto) {
+            let each = |branch: &Branch, world: &mut World| {
+                branch.iter().flat_map(|pair| proportion::pairs(world, pair)).collect::<Branch>()
+            };
+            branches = branches.iter().map(|branch| each(branch, &mut world)).collect();
+        }
         for pair in branches.iter().flatten() {
             targets.extend([pair.residual, pair.lhs, pair.rhs]);
         }
@@ -299,6 +307,10 @@ impl<'b> Source<'b> {
             return Ok(());
         }
         let link = semantics::understand(world, scope, clause, true)?;
+        // That numbers are proportional to each other says nothing of their values.
+        if link.rel == Rel::Propto {
+            return Ok(());
+        }
         let constant = clause.rhs == Side::Constant;
         for pair in self::pairs(world, &link, constant) {
             if ordered {

@@ -14,6 +14,7 @@ use super::decide;
 use super::general;
 use super::law;
 use super::order::{self, Measure};
+use super::remark;
 use super::stateless;
 use super::trouble;
 use super::value;
@@ -184,7 +185,8 @@ pub fn judge_tree(book: &Book, index: usize, tree: &Node, options: &Options) -> 
 pub(super) fn judge_statement(source: &Source, statement: &Statement, options: &Options) -> Outcome {
     let (book, index, version) = (source.book, source.index, source.version);
     let entry = &book.entries[index];
-    if statement.clauses.is_empty() {
+    let is_statement = entry.annotation().and_then(|a| a.kind.as_ref()).is_some_and(|k| k.value == "statement");
+    if statement.clauses.is_empty() || is_statement && statement.clauses.iter().all(remark::is_remark) {
         return nothing_to_evaluate(entry, version);
     }
     if !entry.list(|a| &a.solves).is_empty() {

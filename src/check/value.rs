@@ -4,7 +4,7 @@
 //! digits are read off the printed LaTeX. The rules, by what the printed side is:
 //! - one numeral, perhaps with a power of ten, a unit, or below a 1: it is rounded, and the other side must agree to half a
 //!   unit of its last printed digit (with `digits = n`, of its n-th significant digit), the end of that interval included;
-//! - a power of ten alone: an order of magnitude, right to within a factor of √10 either way;
+//! - a power of ten alone, also `\sim 10`: an order of magnitude, right to within a factor of √10 either way;
 //! - a ratio p : q of whole numbers (q > 1) beside a relation other than `=`: the other side x must have p/q as a convergent of its
 //!   continued fraction, |x - p/q| < 1/(2q²) (Legendre);
 //! - anything else is arithmetic with the numbers that were put in, and must be equal to the other side.
@@ -25,10 +25,17 @@ use super::claim::{Claim, Obstacle, Source, Stated};
 use super::judge::Options;
 use super::random::Random;
 use super::sampling::{Sampler, no_state_text};
+use super::system::State;
 use super::verdict::{LinkJudgement, Strength, Verdict};
 
 /// How far beyond half a unit the arithmetic may lie, relative to it: printed halves are not binary fractions.
 const SLACK: f64 = 1e-12;
+
+/// The states at which a value must be the same, where symbols are left free.
+const STATES: usize = 3;
+
+/// The letters that are units of time where they are declared as times.
+const UNITS_OF_TIME: [&str; 4] = ["y", "d", "h", "s"];
 
 /// What a printed side is.
 #[derive(Clone, Debug, PartialEq)]
@@ -128,13 +135,15 @@ fn compared(
     let extra: Vec<Expr> = shifted.into_iter().collect();
     let tape = Tape::compile(&claim.world.graph, &extra);
     let sampler = Sampler::new(&mut claim, &mut random, &extra).map_err(|e| Missing::Why(no_state_text(&e)))?;
-    if let Some(free) = sampler.system.free.iter().find(|s| sampler.tape.inputs().contains(&s.symbol)) {
-        return Err(Missing::Data(sampler.claim.world.tex(free.symbol)));
-    }
-    let states = sampler.states(1, &mut random, &BTreeMap::new()).map_err(|e| Missing::Why(no_state_text(&e)))?;
+    let states = sampler.states(STATES, &mut random, &BTreeMap::new()).map_err(|e| Missing::Why(no_state_text(&e)))?;
     let (Some(state), [branch]) = (states.first(), sampler.claim.branches.as_slice()) else {
         return Err(Missing::Why("a printed value is one number".into()));
     };
+    if let Some(free) = sampler.system.free.iter().find(|s| sampler.tape.inputs().contains(&s.symbol))
+        && !is_one_number(&sampler, &states)
+    {
+        return Err(Missing::Data(sampler.claim.world.tex(free.symbol)));
+    }
     let values = sampler.evaluate::<Df64>(state, &(), &mut Workspace::default());
     let (Some(values), [pair]) = (values, branch.as_slice()) else {
         return Err(Missing::Why("a printed value is one number".into()));
@@ -170,6 +179,19 @@ fn compared(
         inexact: Some("a printed value is rounded".into()),
         ..judgement.clone()
     })
+}
+
+/// Whether the sides are in the same ratio at all states, and so do not depend on what is still free: C - A in units of C, a
+/// rate in units of the day.
+fn is_one_number(sampler: &Sampler, states: &[State]) -> bool {
+    let mut work = Workspace::default();
+    let mut ratios = states.iter().map(|state| {
+        let values = sampler.evaluate::<Df64>(state, &(), &mut work)?;
+        let value = values.first()?.first()?;
+        Some(value.lhs.value().to_f64() / value.rhs.value().to_f64())
+    });
+    let Some(Some(first)) = ratios.next() else { return false };
+    states.len() > 1 && ratios.all(|ratio| ratio.is_some_and(|ratio| (ratio - first).abs() <= SLACK * first.abs()))
 }
 
 /// How far the other side may be away, and the rule in words.
@@ -215,8 +237,7 @@ fn is_name(entry: &Entry, side: Option<&Node>) -> bool {
     })
 }
 
-/// Whether a side holds numerals, and beside them only operations, words, π and units of time: letters that are declared
-/// as a time and have a value among the data.
+/// Whether a side holds numerals, and beside them only operations, words, π and units of time.
 fn is_numeric(entry: &Entry, side: &Node) -> bool {
     fn only_numbers(entry: &Entry, node: &Node) -> bool {
         match &node.kind {
@@ -231,8 +252,7 @@ fn is_numeric(entry: &Entry, side: &Node) -> bool {
 }
 
 fn is_unit_of_time(entry: &Entry, letter: &str) -> bool {
-    let given = entry.annotation().is_some_and(|a| a.data.iter().any(|(name, _)| name.value == letter));
-    given && letter.len() == 1 && entry.scope.get(letter).is_some_and(|e| e.dimension == Some(Dimension::TIME))
+    UNITS_OF_TIME.contains(&letter) && entry.scope.get(letter).is_some_and(|e| e.dimension == Some(Dimension::TIME))
 }
 
 /// What a numeric side is, beside a relation.
@@ -255,6 +275,7 @@ fn form(side: &Node, rel: Rel) -> Form {
     // The 1 above a numeral, and that of 1 : x.
     let counted: Vec<_> = found.iter().filter(|(_, text)| *text != "1" || found.len() == 1).collect();
     match counted.as_slice() {
+        [(_, text)] if rel == Rel::Sim && text.len() > 1 && text.trim_end_matches('0') == "1" => Form::Magnitude,
         [(span, text)] => {
             let longer = if text.contains('.') { format!("{text}5") } else { format!("{text}.5") };
             Form::Rounded(with_numeral(side, span, &longer), significant(text))
@@ -328,7 +349,12 @@ impl Source<'_> {
         let entry = &self.book.entries[self.index];
         let Some(annotation) = entry.annotation() else { return Ok(()) };
         for (name, value) in &annotation.data {
-            let (symbol, number) = (self.symbol(world, name)?, self.symbol(world, value)?);
+            let symbol = self.symbol(world, name)?;
+            // A number of TOML has its exponent behind an e.
+            let number = match world.graph.decimal(&value.value) {
+                Some(number) => Value::Scalar(number),
+                None => self.symbol(world, value)?,
+            };
             let wrong = |message: &str| Obstacle::Premise(name.value.clone(), message.into(), name.span.clone());
             match (&symbol, &number) {
                 (Value::Scalar(s), Value::Scalar(x)) if matches!(world.graph.node(*s), Op::Symbol(_)) => {

@@ -77,7 +77,7 @@ impl<'w> Elaborator<'w> {
             Kind::Juxt(_) | Kind::Product { .. } | Kind::Frac(..) => self.product(node),
             Kind::Sum(terms) => self.terms(terms),
             Kind::Sqrt { index, body } => self.root(index.as_deref(), body, &node.span),
-            Kind::Group { open: Delim::Angle, .. } if self.is_declared(node) => self.atom(node),
+            Kind::Group { open: Delim::Angle | Delim::Paren, .. } if self.is_declared(node) => self.atom(node),
             Kind::Group { open, close, body } => self.group(*open, *close, body, &node.span),
             Kind::List(items) => self.tuple(items),
             Kind::Matrix { env: MatrixEnv::Cases, rows } => self.case(rows, node),

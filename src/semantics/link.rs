@@ -88,7 +88,9 @@ pub fn understand(world: &mut World, scope: &Scope, clause: &Clause, upper: bool
             }
         };
         let (mut left, mut right) = meet(&mut elaborator, lhs.value, rhs, clause)?;
-        if is_geometric(clause.rel) {
+        if let (Rel::Propto, Value::Scalar(_), Value::Scalar(_)) = (clause.rel, &left, &right) {
+            link.rel = Rel::Propto;
+        } else if is_geometric(clause.rel) {
             (left, right) = as_equation(elaborator.world, clause.rel, &left, &right, &clause.lhs.span)?;
         }
         link.instances.push(Instance { tag: (!tag.is_empty()).then_some(tag), lhs: left, rhs: right });

@@ -29,6 +29,7 @@ mod mean;
 mod motion;
 mod name;
 mod notes;
+mod partial;
 mod poisson;
 mod power;
 mod quaternion;
