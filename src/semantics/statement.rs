@@ -144,7 +144,7 @@ impl Builder {
 
     fn chain(&mut self, first: Option<&Node>, links: &[Link], node: &Node) -> Result<()> {
         match first {
-            Some(first @ Node { kind: Kind::Annotated { .. }, .. }) if holds_relation(first) => self.add(first)?,
+            Some(first) if holds_relation(first) => self.add(first)?,
             Some(first) if !is_words(first) => self.begin(first),
             _ if self.out.last.is_none() => {
                 return Err(Error::unsupported("a relation with nothing before it", &node.span)
@@ -154,7 +154,8 @@ impl Builder {
             _ => {}
         }
         for (k, link) in links.iter().enumerate() {
-            if separates(links, k) {
+            let statements = k == 0 && first.is_some_and(holds_relation);
+            if separates(links, k) || statements && matches!(link.rel, Rel::Implies | Rel::Iff | Rel::ImpliedBy) {
                 self.add(&link.rhs)?;
                 continue;
             }
