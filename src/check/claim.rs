@@ -37,6 +37,13 @@ impl Pair {
     }
 }
 
+/// Whether each pair is one of those that are given as equal, apart from what is nothing but itself.
+fn restates(branches: &[Branch], given: &[(Expr, Expr)]) -> bool {
+    let said = |pair: &&Pair| given.contains(&(pair.lhs, pair.rhs)) || given.contains(&(pair.rhs, pair.lhs));
+    let mut pairs = branches.iter().flatten().filter(|pair| pair.lhs != pair.rhs).peekable();
+    pairs.peek().is_some() && pairs.all(|pair| said(&pair))
+}
+
 /// The pairs of one branch of a link.
 pub type Branch = Vec<Pair>;
 
@@ -64,6 +71,8 @@ pub struct Claim {
     pub bound: BTreeSet<SymId>,
     /// What must be greater or less than zero at a state.
     pub ordered: Vec<(Rel, Expr)>,
+    /// Whether the premises say the same in as many terms: what holds then shows nothing.
+    pub restated: bool,
 }
 
 /// What premises state, of scalars.
@@ -155,15 +164,11 @@ impl<'b> Source<'b> {
             branches[0].extend(pairs(&mut world, &link, clause.rhs == Side::Constant));
         }
         let mut given = self.given(&mut world)?;
-        for when in clauses.iter().filter_map(|clause| clause.when.as_ref()) {
-            let cases = semantics::statement(when, None).map_err(Obstacle::Link)?;
-            for clause in &cases.clauses {
-                self.add_clause(&mut world, scope, clause, &mut given).map_err(Obstacle::Link)?;
-            }
-        }
-        for clause in known {
+        let conditions = clauses.iter().flat_map(|clause| &clause.when);
+        for clause in conditions.chain(known) {
             self.add_clause(&mut world, self.scope(), clause, &mut given).map_err(Obstacle::Link)?;
         }
+        let restated = restates(&branches, &given.equal);
         given.equal.extend(world.integral_rates());
         let small = self.small(&mut world)?;
         let condition = self.condition(&mut world)?;
@@ -194,7 +199,20 @@ impl<'b> Source<'b> {
         world.check(&clause.lhs.span).map_err(Obstacle::Link)?;
         let (lhs_text, rhs_text) = typed.first().map(|l| (l.lhs_text.clone(), l.rhs_text.clone())).unwrap_or_default();
         let rel = clause.rel;
-        Ok(Claim { world, rel, branches, premises, solve, small, lhs_text, rhs_text, condition, bound, ordered })
+        Ok(Claim {
+            world,
+            rel,
+            branches,
+            premises,
+            solve,
+            small,
+            lhs_text,
+            rhs_text,
+            condition,
+            bound,
+            ordered,
+            restated,
+        })
     }
 
     pub(super) fn branches(&self, world: &mut World, scope: &Scope, clause: &Clause) -> Result<Vec<TypedLink>, Error> {
@@ -217,6 +235,7 @@ impl<'b> Source<'b> {
         for reference in entry.given(self.link) {
             self.add_equation(world, reference, &mut stated)?;
         }
+        self.add_data(world, &mut stated)?;
         self.add_assumed(world, &mut stated)?;
         Ok(stated)
     }
@@ -268,14 +287,12 @@ impl<'b> Source<'b> {
 
     /// Adds what a clause states, where it is an equation or says what is greater.
     fn add_clause(&self, world: &mut World, scope: &Scope, clause: &Clause, stated: &mut Stated) -> Result<(), Error> {
+        // What holds under a condition is given with it.
+        clause.when.iter().try_for_each(|condition| self.add_clause(world, scope, condition, stated))?;
         let ordered = matches!(clause.rel, Rel::Lt | Rel::Le | Rel::Gt | Rel::Ge);
         let equal = matches!(clause.rel, Rel::Eq | Rel::Equiv | Rel::Implies) || semantics::is_geometric(clause.rel);
-        if !ordered && !equal || clause.when.is_some() {
+        if !ordered && !equal {
             return Ok(());
-        }
-        if clause.is_approximate() {
-            let message = "an equation up to terms of higher order is no exact premise";
-            return Err(Error::unsupported(message, &clause.lhs.span));
         }
         let link = semantics::understand(world, scope, clause, true)?;
         let constant = clause.rhs == Side::Constant;

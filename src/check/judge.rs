@@ -14,7 +14,9 @@ use super::decide;
 use super::general;
 use super::law;
 use super::order;
+use super::stateless;
 use super::trouble;
+use super::value;
 use super::verdict::{Correction, DimensionStatus, Judgement, LinkJudgement, LostBits, Strength, Verdict};
 
 /// What the checker is asked for.
@@ -201,7 +203,10 @@ pub(super) fn judge_statement(source: &Source, statement: &Statement, options: &
         } else {
             let link = judge_link(source, clause, &entry.scope, &known, options);
             let equality = matches!(clause.rel, Rel::Eq | Rel::Equiv) || semantics::is_geometric(clause.rel);
-            if equality && kind(book, index) == "law" && link.verdict != Verdict::Holds {
+            if link.verdict == Verdict::Definition {
+                known.push(Clause { rel: Rel::Eq, ..clause.clone() });
+                links.push(link);
+            } else if equality && kind(book, index) == "law" && link.verdict != Verdict::Holds {
                 links.push(taken_as_law(link, source, clause, &known, options));
                 known.push(clause.clone());
             } else {
@@ -209,32 +214,14 @@ pub(super) fn judge_statement(source: &Source, statement: &Statement, options: &
             }
         }
     }
-    let remark = |bare: &Node| is_remark(bare) || entry.scope.get(&semantics::pattern_of(&entry.scope, bare)).is_some();
-    links.extend(statement.bare.iter().filter(|bare| !remark(bare)).map(|bare| stateless(source, bare)));
+    links.extend(
+        statement
+            .bare
+            .iter()
+            .filter(|bare| !stateless::is_remark(&entry.scope, bare))
+            .map(|bare| stateless::undecided(source, bare)),
+    );
     Outcome::of(links)
-}
-
-/// Whether a formula beside an equation is a remark: a name or a number, alone or among words.
-fn is_remark(node: &Node) -> bool {
-    match &node.kind {
-        Kind::Text(_) | Kind::Empty | Kind::Number(_) | Kind::Symbol(_) | Kind::Function(_) => true,
-        Kind::Styled(_, body) | Kind::Accent(_, body) | Kind::Dots(_, body) => is_remark(body),
-        Kind::Scripts { base, .. } => is_remark(base),
-        Kind::Group { body, .. } => is_remark(body),
-        Kind::List(items) => items.iter().all(is_remark),
-        Kind::Juxt(factors) => factors.iter().any(|f| matches!(f.kind, Kind::Text(_))) && factors.iter().all(is_remark),
-        _ => false,
-    }
-}
-
-/// A row or an item of an equation without a relation: either the print has lost one, or it is no part of it.
-fn stateless(source: &Source, bare: &Node) -> LinkJudgement {
-    let entry = &source.book.entries[source.index];
-    let reason = "no relation stands in this part: nothing is said about it";
-    let problem = trouble::part(entry, source.version, &bare.span, reason);
-    let clause = Clause { lhs: bare.clone(), rel: Rel::Eq, rhs: Side::Constant, part: 0, continued: false, when: None };
-    let latex = crate::latex::to_latex(bare);
-    LinkJudgement { latex, reason: Some(reason.into()), problem: Some(problem), ..unjudged(&clause) }
 }
 
 /// An equation without a relation: a statement, if the annotation says so and why.
@@ -309,7 +296,7 @@ fn worst(links: &[LinkJudgement]) -> Verdict {
 /// Whether a clause introduces a symbol: one side is a declared symbol that neither an earlier equation nor a premise
 /// mentions.
 pub(super) fn defines(book: &Book, index: usize, clause: &Clause) -> bool {
-    if !matches!(clause.rel, Rel::Eq | Rel::Equiv) {
+    if !matches!(clause.rel, Rel::Eq | Rel::Equiv) || value::is_value(book, index) {
         return false;
     }
     let entry = &book.entries[index];
@@ -350,7 +337,7 @@ fn definition(clause: &Clause) -> LinkJudgement {
 }
 
 /// A judgement on a clause that says nothing yet.
-fn unjudged(clause: &Clause) -> LinkJudgement {
+pub(super) fn unjudged(clause: &Clause) -> LinkJudgement {
     LinkJudgement {
         latex: clause.latex(),
         verdict: Verdict::Undecided,
@@ -366,6 +353,7 @@ fn unjudged(clause: &Clause) -> LinkJudgement {
         exact: None,
         inexact: None,
         lost_bits: None,
+        restated: false,
     }
 }
 
@@ -390,12 +378,10 @@ pub(super) fn judge_link(
 
 fn link_verdict(source: &Source, clause: &Clause, scope: &Scope, known: &[Clause], options: &Options) -> LinkJudgement {
     let mut judgement = unjudged(clause);
-    let small = source.book.entries[source.index].annotation().is_some_and(|a| a.small.is_some());
-    if clause.is_approximate() && !small {
-        judgement.reason = Some("terms of higher order in what? Say small = '...', and their order".into());
-        return judgement;
-    }
+    let entry = &source.book.entries[source.index];
+    let printed = value::is_value(source.book, source.index).then(|| value::printed(entry, clause)).flatten();
     let mapped = match clause.rel {
+        _ if printed.is_some() => Clause { rel: Rel::Eq, ..clause.clone() },
         Rel::To => match source.mapped(clause) {
             None => {
                 judgement.reason =
@@ -414,11 +400,20 @@ fn link_verdict(source: &Source, clause: &Clause, scope: &Scope, known: &[Clause
     };
     match source.claim(&mapped, scope, known) {
         Err(obstacle) => obstructed(judgement, source, clause, &obstacle),
-        Ok(claim) => evaluate(judgement, claim, source, options),
+        Ok(claim) => match printed.filter(|p| !p.is_arithmetic()) {
+            Some(printed) => value::judge(judgement, source, clause, &printed, claim, options),
+            None => evaluate(judgement, claim, source, options),
+        },
     }
 }
 
 fn evaluate(judgement: LinkJudgement, claim: Claim, source: &Source, options: &Options) -> LinkJudgement {
+    let restated = claim.restated;
+    let judged = by_relation(judgement, claim, source, options);
+    LinkJudgement { restated: restated && judged.verdict == Verdict::Holds, ..judged }
+}
+
+fn by_relation(judgement: LinkJudgement, claim: Claim, source: &Source, options: &Options) -> LinkJudgement {
     let name = format!("{}/{}", source.book.entries[source.index].equation.label, judgement.latex);
     match (claim.small, claim.rel) {
         (Some(_), Rel::Eq | Rel::Equiv) => {

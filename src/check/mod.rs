@@ -23,9 +23,11 @@ mod sameness;
 mod sampling;
 mod screen;
 mod shrink;
+mod stateless;
 mod system;
 mod trial;
 mod trouble;
+mod value;
 pub mod verdict;
 
 pub use book::{Book, Entry, Formula, Unclear, Version};

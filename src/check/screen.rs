@@ -125,7 +125,7 @@ impl<'b> Screen<'b> {
     /// A side's scalars: instance by instance, component by component.
     fn expressions(&mut self, left: &Node, right: &Side, of_left: bool) -> Option<Vec<Expr>> {
         let rhs = right.clone();
-        let clause = Clause { lhs: left.clone(), rel: Rel::Eq, rhs, part: 1, continued: false, when: None };
+        let clause = Clause { lhs: left.clone(), rel: Rel::Eq, rhs, part: 1, continued: false, when: Vec::new() };
         let scope = &self.source.book.entries[self.source.index].scope;
         let world = &mut self.claim.world;
         let link = semantics::understand(world, scope, &clause, true).ok().filter(|_| !branches(&clause))?;

@@ -20,6 +20,7 @@ use super::random::{Random, draw};
 use super::sameness;
 use super::sampling::{PairValue, Sampler};
 use super::system::source;
+use super::value;
 use super::verdict::{LinkJudgement, Strength, Verdict};
 
 /// The number of solved states that are kept for each link. A wrong formula mostly fails at the first.
@@ -96,7 +97,7 @@ impl<'b> Trial<'b> {
             let bench =
                 (verdict != Verdict::Definition).then(|| Bench::new(&source.at(k), clause, &known, options)).flatten();
             if verdict == Verdict::Definition {
-                known.push(clause.clone());
+                known.push(known_by(clause));
             }
             prepared.push(Link { verdict, bench });
         }
@@ -281,7 +282,7 @@ impl<'b> Trial<'b> {
         }
         let definitions = self.links.iter().zip(&statement.clauses).take(k);
         let known: Vec<Clause> =
-            definitions.filter(|(l, _)| l.verdict == Verdict::Definition).map(|(_, c)| c.clone()).collect();
+            definitions.filter(|(l, _)| l.verdict == Verdict::Definition).map(|(_, c)| known_by(c)).collect();
         self.with_rising_states(&mut |options| {
             let judged = judge_link(&self.source.at(k), clause, &entry.scope, &known, options);
             (judged.verdict, judged.strength)
@@ -325,6 +326,12 @@ fn outcome((verdict, strength): (Verdict, Option<Strength>)) -> Outcome {
     }
 }
 
+/// What a definition lets the links behind it know; of a datum `J \sim 0.''2`, that the sides are equal.
+fn known_by(clause: &Clause) -> Clause {
+    let rel = if matches!(clause.rel, Rel::Sim | Rel::Approx | Rel::Cong) { Rel::Eq } else { clause.rel };
+    Clause { rel, ..clause.clone() }
+}
+
 /// Whether a clause makes sense by itself.
 fn understood(source: &Source, clause: &Clause) -> Result<(), ErrorKind> {
     let scope = &source.book.entries[source.index].scope;
@@ -336,6 +343,10 @@ impl Bench {
     fn new(source: &Source, clause: &Clause, known: &[Clause], options: &Options) -> Option<Bench> {
         let clause = mapped(source, clause)?;
         if !matches!(clause.rel, Rel::Eq | Rel::Equiv | Rel::Implies) || has_branches(&clause) {
+            return None;
+        }
+        // A rounded value agrees without being equal.
+        if value::is_value(source.book, source.index) {
             return None;
         }
         let entry = &source.book.entries[source.index];

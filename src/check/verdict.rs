@@ -262,6 +262,8 @@ pub struct LinkJudgement {
     pub inexact: Option<String>,
     /// What the side that is worse in doubles loses, for an equality.
     pub lost_bits: Option<LostBits>,
+    /// Whether it holds because a premise says the same in as many terms.
+    pub restated: bool,
 }
 
 /// The formula that should have been printed, with the judgement on it.
@@ -395,6 +397,13 @@ impl Judgement {
             }
         }
         problems
+    }
+
+    /// Whether all that holds of these links is what a premise says in as many terms: that they hold shows nothing.
+    pub fn only_restates(links: &[LinkJudgement]) -> bool {
+        let holds = |link: &&LinkJudgement| matches!(link.verdict, Verdict::Holds | Verdict::Asymptotic);
+        let mut holding = links.iter().filter(holds).peekable();
+        holding.peek().is_some() && holding.all(|link| link.restated)
     }
 
     /// An equation that fails while its correction holds; or one that the print has lost so much of that it cannot be

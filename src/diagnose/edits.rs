@@ -330,6 +330,7 @@ impl<'s> Walk<'s> {
         } else {
             let two = number("2".into());
             others.push(Node::new(Kind::Frac(Box::new(node.clone()), Box::new(two)), node.span.clone()));
+            others.extend(next_digit(digits).map(number));
         }
         for other in others {
             let text = format!("the number {digits} changed to `{}`", to_latex(&other));
@@ -368,6 +369,13 @@ impl<'s> Walk<'s> {
             }
         }
     }
+}
+
+/// A decimal with its last digit one up; from 9 it goes one down.
+fn next_digit(digits: &str) -> Option<String> {
+    let last = digits.chars().last()?.to_digit(10)?;
+    let next = if last == 9 { 8 } else { last + 1 };
+    Some(format!("{}{next}", &digits[..digits.len() - 1]))
 }
 
 fn flipped(sign: Sign) -> Option<Sign> {

@@ -42,6 +42,14 @@ fn summarize(text: &mut String, document: &DocumentReport, paint: Paint) -> std:
     if counts.certified > 0 {
         writeln!(text, "  certified: {} of {} that fail", counts.certified, counts.fails)?;
     }
+    if counts.restated > 0 {
+        writeln!(
+            text,
+            "  restated: {} only say what one of their premises says: {}",
+            counts.restated,
+            restated(document)
+        )?;
+    }
     if counts.errata_lost > 0 {
         let lost = counts.errata_lost;
         writeln!(
@@ -61,6 +69,15 @@ fn summarize(text: &mut String, document: &DocumentReport, paint: Paint) -> std:
     }
     mutants(text, document)?;
     writeln!(text)
+}
+
+/// The labels of the equations that only say what a premise says: `(9), (135) corrected`
+fn restated(document: &DocumentReport) -> String {
+    let label = |j: &Judgement| match &j.correction {
+        Some(c) => Judgement::only_restates(&c.links).then(|| format!("({}) corrected", one_line(&j.label))),
+        None => Judgement::only_restates(&j.links).then(|| format!("({})", one_line(&j.label))),
+    };
+    document.equations.iter().filter_map(label).collect::<Vec<_>>().join(", ")
 }
 
 /// `71 ok, 8 mismatches, 16 unchecked`

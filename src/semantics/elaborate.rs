@@ -6,7 +6,9 @@ use crate::expr::{Expr, Func, SymId};
 use crate::latex::ast::{Delim, Kind, MatrixEnv, Node, Sign, Span, Term};
 use crate::latex::to_latex;
 
+use super::complex;
 use super::error::{Error, Result};
+use super::juxtaposition::Item;
 use super::name::spelling;
 use super::quaternion;
 use super::scope::{Entry, EntryKind, Scope, pattern};
@@ -51,17 +53,22 @@ pub struct Elaborator<'w> {
     pub(super) upper: bool,
     /// How many names stand for names here.
     pub(super) aliases: Cell<usize>,
+    /// The arguments of the function whose formula is being written out.
+    pub(super) bound: Vec<(String, Typed)>,
 }
 
 impl<'w> Elaborator<'w> {
     /// An elaborator with the given indices fixed, on the upper or lower branch of ±.
     pub fn new(world: &'w mut World, scope: &'w Scope, indices: Vec<(String, i64)>, upper: bool) -> Self {
-        Elaborator { world, scope, indices, upper, aliases: Cell::new(0) }
+        Elaborator { world, scope, indices, upper, aliases: Cell::new(0), bound: Vec::new() }
     }
 
     /// The value of an expression.
     pub fn value(&mut self, node: &Node) -> Result<Typed> {
         self.world.step(&node.span)?;
+        if let Some((angle, _)) = self.angle(&[Item::Factor(node)])? {
+            return Ok(angle);
+        }
         match &node.kind {
             Kind::Number(text) => self.number(text, &node.span),
             Kind::Symbol(_) | Kind::Styled(..) | Kind::Accent(..) | Kind::Scripts { .. } | Kind::Dots(..) => {
@@ -70,8 +77,10 @@ impl<'w> Elaborator<'w> {
             Kind::Juxt(_) | Kind::Product { .. } | Kind::Frac(..) => self.product(node),
             Kind::Sum(terms) => self.terms(terms),
             Kind::Sqrt { index, body } => self.root(index.as_deref(), body, &node.span),
+            Kind::Group { open: Delim::Angle, .. } if self.is_declared(node) => self.atom(node),
             Kind::Group { open, close, body } => self.group(*open, *close, body, &node.span),
             Kind::List(items) => self.tuple(items),
+            Kind::Matrix { env: MatrixEnv::Cases, rows } => self.case(rows, node),
             Kind::Matrix { env, rows } => self.matrix(*env, rows, &node.span),
             Kind::Annotated { body, .. } => self.value(body),
             Kind::Function(_) => self.product(node),
@@ -81,7 +90,7 @@ impl<'w> Elaborator<'w> {
                 .with_help("give the formula a `reading` without the words")),
             Kind::Ellipsis => Err(Error::unsupported("an ellipsis stands for terms that are not printed", &node.span)
                 .with_help("give the formula a `reading` in which the terms are written out or summed")),
-            Kind::Factorial(..) => Err(Error::unsupported("factorials are not evaluated yet", &node.span)),
+            Kind::Factorial(step, body) => self.factorial(*step, body, &node.span),
             Kind::At { body, at } => self.evaluated_at(body, at, &node.span),
             Kind::Chain { .. } | Kind::Rows(_) | Kind::Marked(..) => {
                 Err(Error::unsupported("a relation stands where a value is expected", &node.span))
@@ -160,10 +169,14 @@ impl<'w> Elaborator<'w> {
     }
 
     fn group(&mut self, open: Delim, close: Delim, body: &Node, span: &Span) -> Result<Typed> {
+        if let Some(bracket) = self.poisson(open, body, span)? {
+            return Ok(bracket);
+        }
         let inner = self.value(body)?;
         match (open, close) {
             (Delim::Bar, Delim::Bar) | (Delim::DoubleBar, Delim::DoubleBar) => self.magnitude(&inner, span),
-            (Delim::Angle | Delim::Floor | Delim::Ceil, _) => {
+            (Delim::Floor | Delim::Ceil, _) => self.rounded(open, &inner, span),
+            (Delim::Angle, _) => {
                 Err(Error::unsupported("these brackets have a meaning that is not evaluated yet", span))
             }
             _ => Ok(inner),
@@ -179,6 +192,10 @@ impl<'w> Elaborator<'w> {
                 let square = value::dot3(graph, v, v);
                 graph.sqrt(square)
             }
+            Value::Complex(re, im) => {
+                let square = complex::square(graph, (*re, *im));
+                graph.sqrt(square)
+            }
             Value::Matrix(m) if m.rows == m.cols && m.rows <= value::LARGEST_DETERMINANT => {
                 value::determinant(graph, m)
             }
@@ -188,9 +205,6 @@ impl<'w> Elaborator<'w> {
     }
 
     fn matrix(&mut self, env: MatrixEnv, rows: &[Vec<Node>], span: &Span) -> Result<Typed> {
-        if env == MatrixEnv::Cases {
-            return Err(Error::unsupported("cases stand only as the whole of a side", span));
-        }
         let cols = rows.iter().map(Vec::len).max().unwrap_or(0);
         let mut data = Vec::new();
         let mut text = Vec::new();
@@ -239,6 +253,14 @@ impl<'w> Elaborator<'w> {
                 let inner = self.value(body)?;
                 let value = self.time_derivative(&inner.value, u32::from(*n));
                 Ok(Typed::new(value, format!("\\{}ot{{{}}}", "d".repeat(usize::from(*n)), inner.text)))
+            }
+            Kind::Scripts { base, primes: 0, sub: Some(angles), sup: None }
+                if matches!(base.kind, Kind::Group { open: Delim::Angle, close: Delim::Angle, .. }) =>
+            {
+                match &base.kind {
+                    Kind::Group { body, .. } => self.mean(body, angles, &node.span),
+                    _ => Err(self.not_declared(node)),
+                }
             }
             Kind::Scripts { base, primes, sub, sup } => {
                 self.scripts(node, base, *primes, sub.as_deref(), sup.as_deref())
@@ -338,8 +360,8 @@ impl<'w> Elaborator<'w> {
         if let Some(entry) = self.scope.get(&family) {
             return Some((entry, values.into_inner()));
         }
-        // Numbers as indices: m_1 of the family m_i.
-        let numbered = numbered_pattern(node)?;
+        // Numbers as indices: m_1 of the family m_i; or what indices give, K_{n-2p}.
+        let numbered = numbered_pattern(node, &|letter| self.index_value(letter))?;
         Some((self.scope.get(&numbered.0)?, numbered.1))
     }
 
@@ -350,6 +372,9 @@ impl<'w> Elaborator<'w> {
 
     /// The value of a declared symbol, or `None` where the node is no declared name.
     fn declared(&mut self, node: &Node) -> Result<Option<Typed>> {
+        if let Some(argument) = self.argument(node) {
+            return Ok(Some(argument));
+        }
         let Some((entry, indices)) = self.entry(node) else { return Ok(None) };
         let entry = entry.clone();
         let name = instance(&entry.pattern, &indices);
@@ -446,21 +471,48 @@ fn instance(pattern: &str, indices: &[i64]) -> String {
         .collect()
 }
 
-/// The pattern of a name in which the numbers in the scripts are indices, with their values.
-fn numbered_pattern(node: &Node) -> Option<(String, Vec<i64>)> {
-    let Kind::Scripts { base, primes, sub: Some(sub), sup: None } = &node.kind else { return None };
+/// The pattern of a name in which the numbers in the scripts are indices, with their values. So are sums of indices with
+/// whole factors.
+fn numbered_pattern(node: &Node, index: &dyn Fn(&str) -> Option<i64>) -> Option<(String, Vec<i64>)> {
+    let Kind::Scripts { base, primes, sub: Some(sub), sup } = &node.kind else { return None };
     let values = std::cell::RefCell::new(Vec::new());
-    let leaf = |n: &Node| match &n.kind {
-        Kind::Number(digits) => digits.parse().ok().map(|v: i64| {
+    let leaf = |n: &Node| {
+        let value = match &n.kind {
+            Kind::Number(_) | Kind::Sum(_) => whole(n, index),
+            Kind::Symbol(letter) => index(letter),
+            _ => None,
+        };
+        value.map(|v| {
             values.borrow_mut().push(v);
             "#".to_owned()
-        }),
-        _ => None,
+        })
     };
-    let sub = super::name::spelling_with(sub, &leaf);
-    let text = format!("{}{}_{{{sub}}}", spelling(base), "'".repeat(usize::from(*primes)));
+    let mut text = format!("{}{}_{{", spelling(base), "'".repeat(usize::from(*primes)));
+    text += &super::name::spelling_with(sub, &leaf);
+    text.push('}');
+    if let Some(sup) = sup {
+        text += &format!("^{{{}}}", super::name::spelling_with(sup, &leaf));
+    }
     let values = values.into_inner();
     (!values.is_empty()).then_some((text, values))
+}
+
+/// The whole number that a script gives: a number, an index, or a sum of them with whole factors.
+fn whole(node: &Node, index: &dyn Fn(&str) -> Option<i64>) -> Option<i64> {
+    match &node.kind {
+        Kind::Number(digits) => digits.parse().ok(),
+        Kind::Symbol(letter) => index(letter),
+        Kind::Juxt(factors) => factors.iter().try_fold(1_i64, |acc, f| acc.checked_mul(whole(f, index)?)),
+        Kind::Sum(terms) => terms.iter().try_fold(0_i64, |acc, term| {
+            let value = whole(&term.node, index)?;
+            match term.sign {
+                Sign::Plus => acc.checked_add(value),
+                Sign::Minus => acc.checked_sub(value),
+                Sign::PlusMinus | Sign::MinusPlus => None,
+            }
+        }),
+        _ => None,
+    }
 }
 
 /// A name as it is shown in a reading.

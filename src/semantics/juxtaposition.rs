@@ -17,10 +17,14 @@ use crate::latex::ast::{BigOp, Kind, Node, ProductOp, Span};
 use crate::latex::to_latex;
 
 use super::calculus::Derivative;
+use super::complex;
 use super::elaborate::{Elaborator, Typed};
+use super::element::factors_of;
 use super::elliptic::is_name;
 use super::error::{Error, Result};
+use super::link::assignments;
 use super::quaternion;
+use super::sexagesimal;
 use super::value::{self, Value};
 use super::world::{Joint, Role};
 
@@ -168,10 +172,23 @@ impl Elaborator<'_> {
         if let Some(found) = self.elliptic(items)? {
             return Ok(found);
         }
+        if let Some(found) = self.legendre(items)? {
+            return Ok(found);
+        }
+        if let Some(found) = self.angle(items)? {
+            return Ok(found);
+        }
         let (head, sup) = head_and_power(node);
         match &head.kind {
+            _ if complex::is_unit(head) => {
+                let unit = Typed::new(complex::unit(&mut self.world.graph), "i");
+                return self.with_power(unit, sup, &node.span).map(|t| (t, 1));
+            }
             Kind::Function(name) => return self.function(name, sup, node, &items[1..]).map(|(t, n)| (t, n + 1)),
-            Kind::BigOp(op) => return self.big_operator(*op, node, &items[1..]).map(|t| (t, items.len())),
+            Kind::BigOp(op) => {
+                let reach = self.reach(head, &items[1..]);
+                return self.big_operator(*op, node, &items[1..=reach]).map(|t| (t, reach + 1));
+            }
             Kind::Frac(num, den) => return self.fraction(num, den, node, &items[1..]).map(|(t, n)| (t, n + 1)),
             _ => {}
         }
@@ -180,6 +197,9 @@ impl Elaborator<'_> {
                 return Ok((found, 2));
             }
             if let Some(found) = self.choices(node, next)? {
+                return Ok((found, 2));
+            }
+            if let Some(found) = self.applied(node, next)? {
                 return Ok((found, 2));
             }
             if self.is_differential_sign(node) {
@@ -275,6 +295,9 @@ impl Elaborator<'_> {
         if matches!(rest.first(), Some(Item::Factor(n)) if is_bracket(n)) {
             return 1;
         }
+        if let angle @ 1.. = sexagesimal::length(rest) {
+            return angle;
+        }
         let mut used = 0;
         let mut only_numbers = true;
         while let Some(Item::Factor(node)) = rest.get(used) {
@@ -323,6 +346,16 @@ impl Elaborator<'_> {
         if !FUNCTIONS.contains(&name) || name == "exp" && matches!(argument.value, Value::Matrix(_)) {
             let of = argument.value.shape();
             return Err(Error::unsupported(format!("the function {name} of {of} is not evaluated yet"), span));
+        }
+        if let (Value::Complex(re, im), "exp") = (&argument.value, name) {
+            let value = complex::exp(&mut self.world.graph, (*re, *im));
+            return Ok(Typed::new(value, format!("exp({})", argument.text)));
+        }
+        if let Value::Complex(..) = argument.value {
+            return Err(Error::unsupported(
+                format!("the function {name} of a complex number is not evaluated yet"),
+                span,
+            ));
         }
         let x = self.scalar(&argument, span)?;
         let graph = &mut self.world.graph;
@@ -383,10 +416,14 @@ impl Elaborator<'_> {
         }
         match op {
             BigOp::Sum | BigOp::Product => {}
+            BigOp::Integral | BigOp::DoubleIntegral if !self.particles(&factors_of(rest)).is_empty() => {}
             BigOp::Integral => return self.integral(sub, sup, rest, &node.span),
             _ => return Err(Error::unsupported("integrals over areas are not evaluated yet", &node.span)),
         }
-        let ranges = self.index_values(sub, sup, rest, &node.span)?;
+        let ranges = match op {
+            BigOp::Sum | BigOp::Product => self.index_values(sub, sup, rest, &node.span)?,
+            _ => assignments(self.scope, &self.particles(&factors_of(rest)), &node.span)?,
+        };
         let mut total: Option<Typed> = None;
         for assignment in ranges {
             let depth = self.indices.len();
@@ -399,14 +436,20 @@ impl Elaborator<'_> {
                 Some(acc) => {
                     let graph = &mut self.world.graph;
                     let value = match op {
-                        BigOp::Sum => value::add(graph, &acc.value, &term.value, false, &node.span)?,
+                        BigOp::Sum | BigOp::Integral | BigOp::DoubleIntegral => {
+                            value::add(graph, &acc.value, &term.value, false, &node.span)?
+                        }
                         _ => value::multiply(graph, &acc.value, &term.value, &node.span)?,
                     };
                     Typed::new(value, acc.text)
                 }
             });
         }
-        let symbol = if op == BigOp::Sum { "Σ" } else { "Π" };
+        let symbol = match op {
+            BigOp::Sum => "Σ",
+            BigOp::Product => "Π",
+            _ => "∫",
+        };
         match total {
             Some(t) => {
                 let over = sub.map(super::name::spelling).unwrap_or_default();

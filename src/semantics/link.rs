@@ -7,7 +7,6 @@ use super::elaborate::Elaborator;
 use super::error::{Error, Result};
 use super::geometric::{as_equation, is_geometric};
 use super::juxtaposition::Item;
-use super::notes::without_order_terms;
 use super::quaternion;
 use super::scope::Scope;
 use super::statement::{Clause, Side};
@@ -59,6 +58,7 @@ fn component_name(value: &Value, k: usize) -> String {
     match value {
         Value::Vector(_) => format!("{} component (inertial)", ["x", "y", "z"][k % 3]),
         Value::Quaternion(..) => ["scalar part", "x component", "y component", "z component"][k % 4].to_owned(),
+        Value::Complex(..) => ["real part", "imaginary part"][k % 2].to_owned(),
         Value::Matrix(m) if m.cols == 1 => format!("row {}", k + 1),
         Value::Matrix(m) => format!("entry {},{}", k / m.cols + 1, k % m.cols + 1),
         _ => format!("part {}", k + 1),
@@ -67,9 +67,6 @@ fn component_name(value: &Value, k: usize) -> String {
 
 /// Understands a clause in a world, by a scope. `upper` chooses the branch of ±.
 pub fn understand(world: &mut World, scope: &Scope, clause: &Clause, upper: bool) -> Result<TypedLink> {
-    if let Some(exact) = without_orders(clause) {
-        return understand(world, scope, &exact, upper);
-    }
     let mut sides = vec![&clause.lhs];
     if let Side::Node(rhs) = &clause.rhs {
         sides.push(rhs);
@@ -99,16 +96,6 @@ pub fn understand(world: &mut World, scope: &Scope, clause: &Clause, upper: bool
     }
     world.check(&clause.lhs.span)?;
     Ok(link)
-}
-
-/// A clause without the terms of higher order that it names; `None` where it names none.
-pub(super) fn without_orders(clause: &Clause) -> Option<Clause> {
-    let strip = |node: &Node| without_order_terms(node).unwrap_or_else(|| node.clone());
-    let rhs = match &clause.rhs {
-        Side::Node(node) => Side::Node(strip(node)),
-        Side::Constant => Side::Constant,
-    };
-    clause.is_approximate().then(|| Clause { lhs: strip(&clause.lhs), rhs, ..clause.clone() })
 }
 
 /// The value of an expression; where it has free indices, the tuple of its values for all of them.
@@ -148,6 +135,8 @@ fn meet(elaborator: &mut Elaborator, lhs: Value, rhs: Value, clause: &Clause) ->
     Ok(match (lhs, rhs) {
         (lhs, Value::Constant) => (lhs, Value::Constant),
         (Value::Scalar(a), Value::Scalar(b)) => (Value::Scalar(a), Value::Scalar(b)),
+        (Value::Scalar(a), Value::Complex(re, im)) => (Value::Complex(a, zero), Value::Complex(re, im)),
+        (Value::Complex(re, im), Value::Scalar(b)) => (Value::Complex(re, im), Value::Complex(b, zero)),
         (lhs, rhs) if rhs.is_zero_scalar(&elaborator.world.graph) => {
             let null = lhs.map(&mut |_| zero);
             (lhs, null)
@@ -204,13 +193,14 @@ pub(super) fn assignments(scope: &Scope, letters: &[String], span: &Span) -> Res
     let mut all = vec![Vec::new()];
     for letter in letters {
         let Some((from, to)) = scope.index(letter) else { continue };
-        let count = (i128::from(to) - i128::from(from) + 1) * all.len() as i128;
+        let step = scope.get(letter).map_or(1, |entry| entry.step);
+        let count = ((i128::from(to) - i128::from(from)) / step as i128 + 1) * all.len() as i128;
         if count > MOST_ASSIGNMENTS {
             return Err(too_many(&format!("what runs over {}", letters.join(", ")), count, span));
         }
         let mut next = Vec::new();
         for assignment in &all {
-            for v in from..=to {
+            for v in (from..=to).step_by(step) {
                 let mut longer: Vec<(String, i64)> = assignment.clone();
                 longer.push((letter.clone(), v));
                 next.push(longer);

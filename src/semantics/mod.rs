@@ -9,20 +9,30 @@
 //! [`Error`] with its place, never a guess; a mismatch of shapes is told apart from a missing declaration, because the
 //! first is the author's and the second is the annotator's.
 
+mod apply;
 mod calculus;
+mod complex;
 mod counting;
 mod elaborate;
+mod element;
 mod elliptic;
 mod error;
 mod geometric;
 mod juxtaposition;
+mod legendre;
+mod limits;
 mod link;
+mod mean;
 mod motion;
 mod name;
 mod notes;
+mod poisson;
 mod power;
 mod quaternion;
+mod ratio;
+mod remainder;
 mod scope;
+mod sexagesimal;
 mod statement;
 mod terms;
 #[cfg(test)]
@@ -36,6 +46,7 @@ pub use error::{Error, ErrorKind};
 pub use geometric::is_geometric;
 pub use link::{Instance, TypedLink, every_value, understand};
 pub use name::spelling;
+pub use remainder::without_remainder;
 pub use scope::{Basis, Entry, EntryKind, Scope, pattern_of};
 pub use statement::{Clause, Side, Statement, begins_with_relation, has_branches, mentions, relation_latex, statement};
 pub use terms::{PrintedTerm, printed_terms};

@@ -73,6 +73,8 @@ pub struct Entry {
     pub declared: usize,
     /// Whether it takes integers only.
     pub integer: bool,
+    /// The distance between the values of an index.
+    pub step: usize,
     /// The indices it has one value for each of that are not printed: the j of \\sum m r^2.
     pub hidden: Vec<String>,
     /// The indices that its name prints, in their order.
@@ -123,6 +125,8 @@ pub struct Scope {
     pub natural_units: bool,
     /// The modulus of elliptic functions that are printed without one.
     pub modulus: Option<Node>,
+    /// The canonical variables of Poisson brackets: each momentum with its coordinate.
+    pub canonical: Vec<(Node, Node)>,
 }
 
 impl Scope {
@@ -187,6 +191,11 @@ impl Scope {
         if let Some(modulus) = &block.modulus {
             self.modulus = parse_name(modulus, &mut problems);
         }
+        if !block.canonical.is_empty() {
+            let pairs = block.canonical.iter();
+            let read = pairs.filter_map(|(p, q)| Some((parse_name(p, &mut problems)?, parse_name(q, &mut problems)?)));
+            self.canonical = read.collect();
+        }
         problems
     }
 
@@ -244,6 +253,7 @@ impl Scope {
                 dimension,
                 declared: name.span.start,
                 integer: d.integer,
+                step: d.step.unwrap_or(1).max(1),
                 hidden,
                 letters,
                 arguments: arguments.clone(),
@@ -321,6 +331,7 @@ impl Entry {
             dimension: None,
             declared: 0,
             integer: false,
+            step: 1,
             hidden: Vec::new(),
             letters: Vec::new(),
             arguments: Vec::new(),

@@ -5,7 +5,8 @@ use crate::latex::to_latex;
 
 use super::error::{Error, Result};
 use super::geometric::is_geometric;
-use super::notes::{at_braces, has_order_term, relations_of, without_cases};
+use super::notes::at_braces;
+use super::ratio;
 use super::scope::Scope;
 
 /// One side of a link.
@@ -30,8 +31,8 @@ pub struct Clause {
     pub part: usize,
     /// Whether the left side is the last side of the equation before.
     pub continued: bool,
-    /// The condition under which it is said, where it is one of several cases.
-    pub when: Option<Node>,
+    /// The conditions that stand beside it, as in a row of cases.
+    pub when: Vec<Clause>,
 }
 
 impl Clause {
@@ -41,13 +42,7 @@ impl Clause {
             Side::Node(n) => to_latex(n),
             Side::Constant => "\\text{const.}".to_owned(),
         };
-        let when = self.when.as_ref().map(|when| format!(" \\quad ({})", to_latex(when))).unwrap_or_default();
-        format!("{} {} {rhs}{when}", to_latex(&self.lhs), relation_latex(self.rel))
-    }
-
-    /// Whether it is said up to terms of higher order, `+ \mathcal{O}(x^2)`.
-    pub fn is_approximate(&self) -> bool {
-        has_order_term(&self.lhs) || matches!(&self.rhs, Side::Node(rhs) if has_order_term(rhs))
+        format!("{} {} {rhs}", to_latex(&self.lhs), relation_latex(self.rel))
     }
 }
 
@@ -86,6 +81,10 @@ struct Builder {
 
 impl Builder {
     fn add(&mut self, node: &Node) -> Result<()> {
+        if let (side, Some(cases @ Node { kind: Kind::Matrix { .. }, .. })) = without_aside(node) {
+            self.begin(&side);
+            return self.aside(cases);
+        }
         match &node.kind {
             Kind::Rows(rows) => rows.iter().try_for_each(|row| self.add(row)),
             Kind::List(items) => items.iter().try_for_each(|item| self.add(item)),
@@ -94,7 +93,7 @@ impl Builder {
             Kind::Matrix { env: MatrixEnv::Cases | MatrixEnv::Array, rows }
                 if rows.iter().flatten().any(holds_relation) =>
             {
-                rows.iter().try_for_each(|row| self.case(row))
+                self.rows(rows)
             }
             Kind::Group { open: Delim::None | Delim::Brace, body, .. } if holds_relation(body) => self.add(body),
             Kind::Group { open: Delim::Paren, body, .. } if holds_relation(body) => self.aside(body),
@@ -111,18 +110,43 @@ impl Builder {
         }
     }
 
-    /// A row of cases: its first cell, and what is said to follow from it in the others. The rest are remarks.
-    fn case(&mut self, row: &[Node]) -> Result<()> {
-        let follows = |cell: &&Node| matches!(relations_of(cell), Some([Link { rel: Rel::Implies, .. }, ..]));
-        let (first, rest) = (row.first(), row.iter().skip(1));
-        first.into_iter().chain(rest.filter(follows)).try_for_each(|cell| self.add(cell))
+    /// A row of an array: the cells behind the first continue it, or say when it is so.
+    fn row(&mut self, cells: &[Node]) -> Result<()> {
+        let before = self.out.clauses.len();
+        let mut open = None;
+        for (k, cell) in cells.iter().enumerate() {
+            if let Some(link) = open.take() {
+                self.link(&Link { rhs: cell.clone(), ..link })?;
+            } else if let (1.., Some(condition)) = (k, condition(cell)) {
+                let conditions = statement(condition, None)?.clauses;
+                self.out.clauses[before..].iter_mut().for_each(|clause| clause.when.extend(conditions.clone()));
+            } else {
+                self.add(cell)?;
+            }
+            open = open_relation(cell);
+        }
+        Ok(())
+    }
+
+    /// The rows of an array: statements of their own; or cases of one that stands before them, `f \begin{cases} > 0 ...`.
+    fn rows(&mut self, rows: &[Vec<Node>]) -> Result<()> {
+        let (last, head) = (self.out.last.clone(), self.out.head.clone());
+        let cases = last.is_some() && rows.iter().all(|row| begins(row));
+        for row in rows {
+            if cases {
+                (self.out.last, self.out.head) = (last.clone(), head.clone());
+            }
+            self.row(row)?;
+        }
+        Ok(())
     }
 
     /// What stands at braces is said of what they span.
     fn braces(&mut self, root: &Node) {
         for (lhs, link) in at_braces(root) {
             let rhs = if is_constant(&link.rhs) { Side::Constant } else { Side::Node(link.rhs) };
-            self.out.clauses.push(Clause { lhs, rel: link.rel, rhs, part: self.part, continued: false, when: None });
+            let part = self.part;
+            self.out.clauses.push(Clause { lhs, rel: link.rel, rhs, part, continued: false, when: Vec::new() });
         }
     }
 
@@ -143,6 +167,8 @@ impl Builder {
     }
 
     fn chain(&mut self, first: Option<&Node>, links: &[Link], node: &Node) -> Result<()> {
+        let folded = ratio::folded(first, links);
+        let (first, links) = folded.as_ref().map_or((first, links), |(f, l)| (f.as_ref(), l.as_slice()));
         match first {
             Some(first) if holds_relation(first) => self.add(first)?,
             Some(first) if !is_words(first) => self.begin(first),
@@ -166,11 +192,6 @@ impl Builder {
             if matches!(link.rhs.kind, Kind::Empty) || is_words(&link.rhs) && !is_constant(&link.rhs) {
                 continue;
             }
-            if let Some((side, rows)) = without_cases(&link.rhs) {
-                self.link(&Link { rhs: side, ..link.clone() })?;
-                self.cases(rows);
-                continue;
-            }
             let (side, aside) = without_aside(&link.rhs);
             self.link(&Link { rhs: side, ..link.clone() })?;
             if let Some(body) = aside {
@@ -180,31 +201,44 @@ impl Builder {
         Ok(())
     }
 
-    /// Relations of the last side, each under the condition in its second cell.
-    fn cases(&mut self, rows: &[Vec<Node>]) {
-        let Some(lhs) = self.out.last.clone() else { return };
-        for row in rows {
-            for link in row.first().and_then(relations_of).unwrap_or_default() {
-                let (rhs, when) = (Side::Node(link.rhs.clone()), row.get(1).cloned());
-                let clause = Clause { lhs: lhs.clone(), rel: link.rel, rhs, part: self.part, continued: false, when };
-                self.out.clauses.push(clause);
-            }
-        }
-    }
-
     fn link(&mut self, link: &Link) -> Result<()> {
-        let Some(lhs) = self.out.last.clone() else { return Ok(()) };
+        let Some(mut lhs) = self.out.last.clone() else { return Ok(()) };
         // A row that the next one continues.
         self.out.bare.retain(|bare| bare.span != lhs.span);
-        let constant = is_constant(&link.rhs);
+        let mut constant = is_constant(&link.rhs);
+        if let Some(difference) = without_constant(&lhs, &link.rhs) {
+            (lhs, constant) = (difference, true);
+        }
         let rhs = if constant { Side::Constant } else { Side::Node(link.rhs.clone()) };
-        let continued = self.continued;
-        self.out.clauses.push(Clause { lhs, rel: link.rel, rhs, part: self.part, continued, when: None });
+        self.out.clauses.push(Clause {
+            lhs,
+            rel: link.rel,
+            rhs,
+            part: self.part,
+            continued: self.continued,
+            when: Vec::new(),
+        });
         if !constant {
             self.out.last = Some(link.rhs.clone());
             self.continued = false;
         }
         Ok(())
+    }
+}
+
+/// The condition that a cell behind others states, in brackets or not; none where it continues them.
+fn condition(cell: &Node) -> Option<&Node> {
+    match &cell.kind {
+        Kind::Group { open: Delim::Paren, body, .. } => condition(body),
+        _ => (holds_relation(cell) && !begins_with_relation(cell)).then_some(cell),
+    }
+}
+
+/// The relation that a cell ends with: its right side is the next cell.
+fn open_relation(cell: &Node) -> Option<Link> {
+    match &cell.kind {
+        Kind::Chain { links, .. } => links.last().filter(|link| matches!(link.rhs.kind, Kind::Empty)).cloned(),
+        _ => None,
     }
 }
 
@@ -265,18 +299,18 @@ fn holds_relation(node: &Node) -> bool {
     }
 }
 
-/// A side without the statement in brackets behind it, and that statement: `f (= g)`, `0 (a \parallel b)`.
+/// A side without the statement behind it, and that statement: `f (= g)`, `0 (a \parallel b)`, `f \begin{cases} > 0 ...`.
 fn without_aside(side: &Node) -> (Node, Option<&Node>) {
     match &side.kind {
         Kind::Juxt(factors) => match factors.split_last() {
-            Some((Node { kind: Kind::Group { open: Delim::Paren, body, .. }, .. }, rest)) if holds_relation(body) => {
+            Some((last, rest)) if aside_of(last).is_some() && !rest.is_empty() => {
                 let kind = if rest.len() == 1 { rest[0].kind.clone() } else { Kind::Juxt(rest.to_vec()) };
                 let end = rest.last().map_or(side.span.end, |n| n.span.end);
-                (Node::new(kind, side.span.start..end), Some(body))
+                (Node::new(kind, side.span.start..end), aside_of(last))
             }
             _ => (side.clone(), None),
         },
-        // Behind the last term of a sum.
+        // Behind the last term of a sum, the last factor of a product.
         Kind::Sum(terms) => match terms.split_last() {
             Some((last, rest)) => {
                 let (node, aside) = without_aside(&last.node);
@@ -285,8 +319,32 @@ fn without_aside(side: &Node) -> (Node, Option<&Node>) {
             }
             None => (side.clone(), None),
         },
+        Kind::Product { first, rest } => match rest.split_last() {
+            Some(((op, last), before)) => {
+                let (node, aside) = without_aside(last);
+                let rest = before.iter().cloned().chain([(*op, node)]).collect();
+                (Node::new(Kind::Product { first: first.clone(), rest }, side.span.clone()), aside)
+            }
+            None => (side.clone(), None),
+        },
         _ => (side.clone(), None),
     }
+}
+
+/// The statement that a last factor is: one in brackets, or cases that begin with relations.
+fn aside_of(factor: &Node) -> Option<&Node> {
+    match &factor.kind {
+        Kind::Group { open: Delim::Paren, body, .. } if holds_relation(body) => Some(body),
+        Kind::Matrix { env: MatrixEnv::Cases | MatrixEnv::Array, rows } if rows.iter().all(|row| begins(row)) => {
+            Some(factor)
+        }
+        _ => None,
+    }
+}
+
+/// Whether a row of an array begins with a relation.
+fn begins(row: &[Node]) -> bool {
+    row.first().is_some_and(begins_with_relation)
 }
 
 /// Whether a side consists of words only.
@@ -316,6 +374,24 @@ pub(super) fn is_constant(node: &Node) -> bool {
         Kind::Juxt(factors) => factors.first().is_some_and(is_constant),
         _ => false,
     }
+}
+
+/// The left side minus all that is printed beside the word const. on the right, `n t + \text{const.}`.
+fn without_constant(lhs: &Node, rhs: &Node) -> Option<Node> {
+    let Kind::Sum(terms) = &rhs.kind else { return None };
+    let (constants, rest): (Vec<&Term>, Vec<&Term>) = terms.iter().partition(|t| is_constant(&t.node));
+    let opposite = |sign| match sign {
+        Sign::Plus => Sign::Minus,
+        Sign::Minus => Sign::Plus,
+        Sign::PlusMinus => Sign::MinusPlus,
+        Sign::MinusPlus => Sign::PlusMinus,
+    };
+    if constants.len() != 1 || rest.is_empty() {
+        return None;
+    }
+    let moved = rest.into_iter().map(|t| Term { sign: opposite(t.sign), ..t.clone() });
+    let first = Term { sign: Sign::Plus, sign_span: None, node: lhs.clone() };
+    Some(Node::new(Kind::Sum(std::iter::once(first).chain(moved).collect()), rhs.span.clone()))
 }
 
 /// Whether a formula has branches by ±.

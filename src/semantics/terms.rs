@@ -6,7 +6,7 @@ use crate::latex::to_latex;
 use super::elaborate::Elaborator;
 use super::error::Result;
 use super::juxtaposition::Item;
-use super::link::{assignments, without_orders};
+use super::link::assignments;
 use super::scope::Scope;
 use super::statement::{Clause, Side};
 use super::units;
@@ -33,9 +33,6 @@ pub struct PrintedTerm {
 /// # Errors
 /// Those of understanding the terms.
 pub fn printed_terms(world: &mut World, scope: &Scope, clause: &Clause) -> Result<Vec<PrintedTerm>> {
-    if let Some(exact) = without_orders(clause) {
-        return printed_terms(world, scope, &exact);
-    }
     let mut sides = vec![&clause.lhs];
     if let Side::Node(rhs) = &clause.rhs {
         sides.push(rhs);
