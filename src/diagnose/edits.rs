@@ -361,7 +361,9 @@ impl<'s> Walk<'s> {
         // Another notation of a symbol that depends on time has dots, too.
         let renamed = matches!(name.entry.kind, EntryKind::Same(_)) && !self.reach.factors.is_empty();
         if name.entry.of_t || name.dots > 0 || renamed {
-            for dots in [name.dots.wrapping_sub(1), name.dots + 1] {
+            // A scan loses both dots of an acceleration.
+            let both = (!self.reach.factors.is_empty()).then_some(name.dots + 2);
+            for dots in [name.dots.wrapping_sub(1), name.dots + 1].into_iter().chain(both) {
                 if dots <= 3 {
                     let new = name.replaced(&name.bare, dots);
                     let text = format!("`{shown}` changed to `{}`", to_latex(&without_power(&new)));

@@ -88,7 +88,7 @@ pub fn read(scope: &Scope, clause: &Clause, mapped: bool, quantities: &mut Quant
     let aside = Joint { role: Role::Sum, parts: parts(apart) };
     let top = Joint { role: Role::Sum, parts: parts(together) };
 
-    let mut walk = Walk::new(&world, quantities);
+    let mut walk = Walk::new(&world, scope.quaternions, quantities);
     let mut read: Vec<JointReading> = Vec::new();
     for joint in &joints {
         // A sum over particles takes the same terms down for each of them, and an exponent 2 needs no check.
@@ -118,21 +118,25 @@ struct Walk<'w> {
     world: &'w World,
     quantities: &'w mut Quantities,
     time: Affine,
+    /// Whether numbers and vectors may be added.
+    quaternions: bool,
     known: HashMap<Expr, Option<Affine>>,
     implied: Vec<(Affine, Affine)>,
 }
 
 impl<'w> Walk<'w> {
-    fn new(world: &'w World, quantities: &'w mut Quantities) -> Self {
+    fn new(world: &'w World, quaternions: bool, quantities: &'w mut Quantities) -> Self {
         let t = world.graph.find("t").and_then(|t| world.facts(t).quantity?.dimension);
         let time = Affine::of(t.unwrap_or(Dimension::TIME));
-        Walk { world, quantities, time, known: HashMap::new(), implied: Vec::new() }
+        Walk { world, quantities, time, quaternions, known: HashMap::new(), implied: Vec::new() }
     }
 
     /// `None` where the parts have different shapes: that is another finding.
     fn joint(&mut self, joint: &Joint) -> Option<JointReading> {
         let zero = |v: &Value| matches!(v, Value::Scalar(e) if self.world.graph.is_zero(*e));
-        if joint.parts.iter().any(|(_, v)| matches!(v, Value::Quaternion(..))) {
+        let holds = |shape: fn(&Value) -> bool| joint.parts.iter().any(|(_, v)| shape(v) && !zero(v));
+        let (numbers, vectors) = (holds(|v| matches!(v, Value::Scalar(_))), holds(|v| matches!(v, Value::Vector(_))));
+        if self.quaternions && (numbers && vectors || holds(|v| matches!(v, Value::Quaternion(..)))) {
             return self.quaternions(joint);
         }
         let shapes = joint.parts.iter().filter(|(_, v)| !zero(v)).map(|(_, v)| v.components().len());
