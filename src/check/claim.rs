@@ -196,6 +196,10 @@ impl<'b> Source<'b> {
             targets.extend([pair.residual, pair.lhs, pair.rhs]);
         }
         targets.extend(small.iter().map(|(s, _)| world.graph.sym(*s)).collect::<Vec<_>>());
+        // What it is to be equivalent to speaks of symbols that the premises may give.
+        let mut resolved = |e: Expr| premises.resolve(&mut world.graph, e);
+        let condition = condition.map(|(rel, a, b)| (rel, resolved(a), resolved(b)));
+        targets.extend(condition.iter().flat_map(|(_, a, b)| [*a, *b]));
         let ordered: Vec<(Rel, Expr)> =
             given.ordered.iter().map(|(rel, e)| (*rel, premises.resolve(&mut world.graph, *e))).collect();
         let bound: Vec<Expr> = ordered.iter().map(|(_, e)| *e).chain(premises.residuals.iter().copied()).collect();

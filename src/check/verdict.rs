@@ -291,6 +291,8 @@ pub struct Sensitivity {
     pub total: usize,
     /// The mutants among them that say the same as the formula, by a rule that does not rest on the check.
     pub equivalent: usize,
+    /// The inequalities among them that follow from the formula by themselves: they are true where it is.
+    pub weaker: usize,
     /// The mutants that neither fail nor hold: the premises have no solution at which they can be evaluated.
     pub undecided: usize,
     /// The mutants that pass and say something else: the edit in words and what it gives.

@@ -52,7 +52,7 @@ pub use geometric::is_geometric;
 pub use index_range::without_index_ranges;
 pub use link::{Instance, TypedLink, every_value, understand};
 pub use name::spelling;
-pub use remainder::without_remainder;
+pub use remainder::{is_remainder, without_remainder};
 pub use scope::{Basis, Entry, EntryKind, Scope, pattern_of};
 pub use signs::independent_signs;
 pub use statement::{Clause, Side, Statement, begins_with_relation, has_branches, mentions, relation_latex, statement};

@@ -126,6 +126,14 @@ impl World {
         self.graph.symbols(&[e]).iter().any(known)
     }
 
+    /// What a symbol is made of, if it is an integral along the motion or a value at its start: what it integrates (then
+    /// `true`), or what it is the value of.
+    pub fn remembered(&self, symbol: SymId) -> Option<(Expr, bool)> {
+        let of = |all: &[(SymId, Expr)]| all.iter().find(|(s, _)| *s == symbol).map(|(_, e)| *e);
+        let integral = of(&self.history.integrals).map(|rate| (rate, true));
+        integral.or_else(|| of(&self.history.starts).map(|e| (e, false)))
+    }
+
     /// The time derivative of an expression, in which an integral's is what it integrates.
     pub fn rate(&mut self, e: Expr) -> Expr {
         let t = self.graph.find("t");
