@@ -190,7 +190,7 @@ impl<N: Real> Number for Tracked<N> {
         Tracked::made(value, if exact { 0.0 } else { 1.0 })
     }
     fn from_ratio(n: i128, d: i128, cx: &N::Context) -> Self {
-        let small = d == 1 && n.unsigned_abs() < 1 << N::precision_bits(cx).min(53);
+        let small = n == 0 || d == 1 && n.unsigned_abs() < 1 << N::precision_bits(cx).min(53);
         Tracked::made(N::from_ratio(n, d, cx), if small { 0.0 } else { N::rounding(Operation::Div) })
     }
     fn pi(cx: &N::Context) -> Self {
@@ -352,6 +352,10 @@ impl<N: Real> Number for Tracked<N> {
     fn set_sin_cos(sin: &mut Self, cos: &mut Self, a: &Self) {
         N::set_sin_cos(&mut sin.value, &mut cos.value, &a.value);
         for (f, x) in [(Func::Sin, sin), (Func::Cos, cos)] {
+            if a.is_zero() && vanishes_at_zero(f) {
+                x.error = 0.0;
+                continue;
+            }
             let error = a.error_in(bits(&x.value));
             let slope = Self::slope(f, a, &x.value);
             x.close(moved(slope, error), N::rounding(Operation::Call(f)));
