@@ -74,6 +74,8 @@ pub struct Claim {
     pub ordered: Vec<(Rel, Expr)>,
     /// Whether the premises say the same in as many terms: what holds then shows nothing.
     pub restated: bool,
+    /// Whether its pairs are coefficients of a Fourier series of which some terms are printed.
+    pub partial: bool,
 }
 
 /// What premises state, of scalars.
@@ -192,6 +194,7 @@ impl<'b> Source<'b> {
             };
             branches = branches.iter().map(|branch| each(branch, &mut world)).collect();
         }
+        let partial = self.harmonics(&mut world, &premises, &mut branches)?;
         for pair in branches.iter().flatten() {
             targets.extend([pair.residual, pair.lhs, pair.rhs]);
         }
@@ -225,7 +228,31 @@ impl<'b> Source<'b> {
             bound,
             ordered,
             restated,
+            partial,
         })
+    }
+
+    /// Where the equation is part of a Fourier series, compares coefficients in the place of sums.
+    fn harmonics(&self, world: &mut World, premises: &Premises, branches: &mut [Branch]) -> Result<bool, Obstacle> {
+        let mut angles = Vec::new();
+        let texts = self.book.entries[self.index].list(|a| &a.harmonics);
+        let bound = world.graph.symbols(&premises.residuals);
+        for text in texts {
+            let obstacle = |message: &str| Obstacle::Premise(text.value.clone(), message.into(), text.span.clone());
+            for e in self.symbol(world, text)?.components() {
+                match *world.graph.node(e) {
+                    Node::Symbol(s) if bound.contains(&s) => {
+                        return Err(obstacle("the premises bind this angle; declare by `same` what depends on it"));
+                    }
+                    Node::Symbol(s) => angles.push(s),
+                    _ => return Err(obstacle("an angle of a Fourier series must be a symbol")),
+                }
+            }
+        }
+        let Some(first) = texts.first().filter(|_| !angles.is_empty()) else { return Ok(false) };
+        super::harmonics::project(world, branches, &angles)
+            .map_err(|message| Obstacle::Premise("harmonics".into(), message, first.span.clone()))?;
+        Ok(true)
     }
 
     pub(super) fn branches(&self, world: &mut World, scope: &Scope, clause: &Clause) -> Result<Vec<TypedLink>, Error> {

@@ -11,6 +11,7 @@ pub mod dimension;
 mod elimination;
 pub mod exact;
 mod general;
+mod harmonics;
 pub mod inspect;
 mod judge;
 mod law;
