@@ -171,6 +171,7 @@ impl<'b> Source<'b> {
         }
         let restated = restates(&branches, &given.equal);
         given.equal.extend(world.integral_rates());
+        given.equal.extend(world.moment.iter().copied());
         given.ordered.extend(world.precise().iter().map(|e| (Rel::Gt, *e)));
         let small = self.small(&mut world)?;
         let condition = self.condition(&mut world)?;
@@ -195,6 +196,10 @@ impl<'b> Source<'b> {
             targets.extend([pair.residual, pair.lhs, pair.rhs]);
         }
         targets.extend(small.iter().map(|(s, _)| world.graph.sym(*s)).collect::<Vec<_>>());
+        // What it is to be equivalent to speaks of symbols that the premises may give.
+        let mut resolved = |e: Expr| premises.resolve(&mut world.graph, e);
+        let condition = condition.map(|(rel, a, b)| (rel, resolved(a), resolved(b)));
+        targets.extend(condition.iter().flat_map(|(_, a, b)| [*a, *b]));
         let ordered: Vec<(Rel, Expr)> =
             given.ordered.iter().map(|(rel, e)| (*rel, premises.resolve(&mut world.graph, *e))).collect();
         let bound: Vec<Expr> = ordered.iter().map(|(_, e)| *e).chain(premises.residuals.iter().copied()).collect();
@@ -224,11 +229,14 @@ impl<'b> Source<'b> {
     }
 
     pub(super) fn branches(&self, world: &mut World, scope: &Scope, clause: &Clause) -> Result<Vec<TypedLink>, Error> {
-        let both =
-            semantics::has_branches(&clause.lhs) || matches!(&clause.rhs, Side::Node(n) if semantics::has_branches(n));
-        let mut links = vec![semantics::understand(world, scope, clause, true)?];
-        if both {
-            links.push(semantics::understand(world, scope, clause, false)?);
+        let mut links = Vec::new();
+        for clause in semantics::independent_signs(clause) {
+            let both = semantics::has_branches(&clause.lhs)
+                || matches!(&clause.rhs, Side::Node(n) if semantics::has_branches(n));
+            links.push(semantics::understand(world, scope, &clause, true)?);
+            if both {
+                links.push(semantics::understand(world, scope, &clause, false)?);
+            }
         }
         Ok(links)
     }

@@ -127,7 +127,14 @@ fn meet(elaborator: &mut Elaborator, lhs: Value, rhs: Value, clause: &Clause) ->
         _ => (lhs, rhs),
     };
     let (lhs, rhs) = match quaternion::met(&mut elaborator.world.graph, &lhs, &rhs) {
-        Some(met) if elaborator.scope.quaternions && !is_null(elaborator, &lhs) && !is_null(elaborator, &rhs) => met,
+        Some(met)
+            if elaborator.scope.quaternions
+                && !is_geometric(clause.rel)
+                && !is_null(elaborator, &lhs)
+                && !is_null(elaborator, &rhs) =>
+        {
+            met
+        }
         _ => (lhs, rhs),
     };
     let span = match &clause.rhs {

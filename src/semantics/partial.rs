@@ -45,7 +45,16 @@ impl Elaborator<'_> {
 
     fn by_scalar(&mut self, value: &Value, x: Expr, variable: &Node, span: &Span) -> Result<Value> {
         let Op::Symbol(id) = *self.world.graph.node(x) else { return self.by_expression(value, x, variable, span) };
-        Ok(value.map(&mut |e| self.world.graph.diff(e, id)))
+        let mut along = false;
+        let derivative = value.map(&mut |e| {
+            let derivative = self.world.partial(e, id);
+            along |= derivative.is_none();
+            derivative.unwrap_or(e)
+        });
+        match along {
+            true => Err(Error::unsupported("a partial derivative of an integral along the motion", span)),
+            false => Ok(derivative),
+        }
     }
 
     /// The derivative of something with respect to an expression x that it depends on by x alone: by any symbol of x,
@@ -58,6 +67,9 @@ impl Elaborator<'_> {
             return Err(Error::unsupported(format!("a derivative with respect to {name}, which is no variable"), span));
         };
         let mut minors = Vec::new();
+        if value.components().into_iter().any(|e| self.world.remembers(e)) {
+            return Err(Error::unsupported("a partial derivative of an integral along the motion", span));
+        }
         for e in value.components() {
             for s in symbols.iter().skip(1) {
                 let graph = &mut self.world.graph;

@@ -178,7 +178,7 @@ impl Builder {
         let folded = ratio::folded(first, links);
         let (first, links) = folded.as_ref().map_or((first, links), |(f, l)| (f.as_ref(), l.as_slice()));
         match first {
-            Some(first @ Node { kind: Kind::Annotated { .. }, .. }) if holds_relation(first) => self.add(first)?,
+            Some(first) if holds_relation(first) => self.add(first)?,
             Some(first) if !is_words(first) => self.begin(first),
             _ if self.out.last.is_none() => {
                 return Err(Error::unsupported("a relation with nothing before it", &node.span)
@@ -188,7 +188,8 @@ impl Builder {
             _ => {}
         }
         for (k, link) in links.iter().enumerate() {
-            if separates(links, k) {
+            let statements = k == 0 && first.is_some_and(holds_relation);
+            if separates(links, k) || statements && matches!(link.rel, Rel::Implies | Rel::Iff | Rel::ImpliedBy) {
                 self.add(&link.rhs)?;
                 continue;
             }
