@@ -12,6 +12,7 @@ use crate::semantics::{self, Clause, Elaborator, Error, Scope, Side, TypedLink, 
 
 use super::book::{Book, Formula, Unclear, Version};
 use super::premises::Premises;
+use super::proportion;
 
 /// How deep values at the start of the motion may be made of others.
 const MOST_STARTS: usize = 16;
@@ -32,7 +33,7 @@ pub struct Pair {
 }
 
 impl Pair {
-    fn new(graph: &mut Graph, name: Option<String>, lhs: Expr, rhs: Expr) -> Self {
+    pub(super) fn new(graph: &mut Graph, name: Option<String>, lhs: Expr, rhs: Expr) -> Self {
         Pair { name, lhs, rhs, residual: graph.sub(lhs, rhs), start: false }
     }
 }
@@ -172,6 +173,8 @@ impl<'b> Source<'b> {
         }
         let restated = restates(&branches, &given.equal);
         given.equal.extend(world.integral_rates());
+        given.equal.extend(world.moment.iter().copied());
+        given.ordered.extend(world.precise().iter().map(|e| (Rel::Gt, *e)));
         let small = self.small(&mut world)?;
         let condition = self.condition(&mut world)?;
         let solve = self.solve(&mut world)?;
@@ -185,11 +188,21 @@ impl<'b> Source<'b> {
         let printed: Vec<Expr> = branches.iter().flatten().map(|pair| pair.residual).collect();
         let mentioned = world.graph.symbols(&printed);
         resolve(&mut world, &premises, &mut branches, typed.first().map(|link| link.rel));
+        if typed.first().is_some_and(|link| link.rel == Rel::Propto) {
+            let each = |branch: &Branch, world: &mut World| {
+                branch.iter().flat_map(|pair| proportion::pairs(world, pair)).collect::<Branch>()
+            };
+            branches = branches.iter().map(|branch| each(branch, &mut world)).collect();
+        }
         let partial = self.harmonics(&mut world, &premises, &mut branches)?;
         for pair in branches.iter().flatten() {
             targets.extend([pair.residual, pair.lhs, pair.rhs]);
         }
         targets.extend(small.iter().map(|(s, _)| world.graph.sym(*s)).collect::<Vec<_>>());
+        // What it is to be equivalent to speaks of symbols that the premises may give.
+        let mut resolved = |e: Expr| premises.resolve(&mut world.graph, e);
+        let condition = condition.map(|(rel, a, b)| (rel, resolved(a), resolved(b)));
+        targets.extend(condition.iter().flat_map(|(_, a, b)| [*a, *b]));
         let ordered: Vec<(Rel, Expr)> =
             given.ordered.iter().map(|(rel, e)| (*rel, premises.resolve(&mut world.graph, *e))).collect();
         let bound: Vec<Expr> = ordered.iter().map(|(_, e)| *e).chain(premises.residuals.iter().copied()).collect();
@@ -243,11 +256,14 @@ impl<'b> Source<'b> {
     }
 
     pub(super) fn branches(&self, world: &mut World, scope: &Scope, clause: &Clause) -> Result<Vec<TypedLink>, Error> {
-        let both =
-            semantics::has_branches(&clause.lhs) || matches!(&clause.rhs, Side::Node(n) if semantics::has_branches(n));
-        let mut links = vec![semantics::understand(world, scope, clause, true)?];
-        if both {
-            links.push(semantics::understand(world, scope, clause, false)?);
+        let mut links = Vec::new();
+        for clause in semantics::independent_signs(clause) {
+            let both = semantics::has_branches(&clause.lhs)
+                || matches!(&clause.rhs, Side::Node(n) if semantics::has_branches(n));
+            links.push(semantics::understand(world, scope, &clause, true)?);
+            if both {
+                links.push(semantics::understand(world, scope, &clause, false)?);
+            }
         }
         Ok(links)
     }
@@ -322,6 +338,10 @@ impl<'b> Source<'b> {
             return Ok(());
         }
         let link = semantics::understand(world, scope, clause, true)?;
+        // That numbers are proportional to each other says nothing of their values.
+        if link.rel == Rel::Propto {
+            return Ok(());
+        }
         let constant = clause.rhs == Side::Constant;
         for pair in self::pairs(world, &link, constant) {
             if ordered {

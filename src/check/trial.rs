@@ -178,6 +178,18 @@ impl<'b> Trial<'b> {
         self.same_clauses(&self.statement.clauses, &statement.clauses)
     }
 
+    /// Whether a formula says no more than the original: its clauses are the same, or relations of order that follow from
+    /// those of the original.
+    pub fn is_weaker(&self, tree: &Node) -> bool {
+        let Ok(statement) = self.source.book.statement_of(self.source.index, tree) else { return false };
+        let random = self.random();
+        let (own, other) = (&self.statement.clauses, &statement.clauses);
+        let weaker = |(a, b): (&Clause, &Clause)| {
+            a == b || sameness::same(&self.source, a, b, &random) || sameness::follows(&self.source, a, b, &random)
+        };
+        own.len() == other.len() && own.iter().zip(other).all(weaker)
+    }
+
     /// Whether two formulas in the place of the original say the same as each other.
     pub fn say_the_same(&self, a: &Node, b: &Node) -> bool {
         let clauses = |tree| self.source.book.statement_of(self.source.index, tree).map(|s| s.clauses);

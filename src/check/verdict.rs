@@ -291,6 +291,8 @@ pub struct Sensitivity {
     pub total: usize,
     /// The mutants among them that say the same as the formula, by a rule that does not rest on the check.
     pub equivalent: usize,
+    /// The inequalities among them that follow from the formula by themselves: they are true where it is.
+    pub weaker: usize,
     /// The mutants that neither fail nor hold: the premises have no solution at which they can be evaluated.
     pub undecided: usize,
     /// The mutants that pass and say something else: the edit in words and what it gives.
@@ -411,11 +413,13 @@ impl Judgement {
     pub fn is_erratum(&self) -> bool {
         let lost =
             matches!(self.verdict, Verdict::Undecided | Verdict::Unreadable) && self.expect == Some(self.verdict);
-        (self.verdict == Verdict::Fails || lost)
-            && self
-                .correction
-                .as_ref()
-                .is_some_and(|c| matches!(c.verdict, Verdict::Holds | Verdict::Asymptotic | Verdict::Definition))
+        (self.verdict == Verdict::Fails || lost) && self.is_mended()
+    }
+
+    /// Whether it has a correction that holds.
+    pub fn is_mended(&self) -> bool {
+        let holds = |c: &Correction| matches!(c.verdict, Verdict::Holds | Verdict::Asymptotic | Verdict::Definition);
+        self.correction.as_ref().is_some_and(holds)
     }
 }
 

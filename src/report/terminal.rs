@@ -150,7 +150,7 @@ fn mutants(text: &mut String, document: &DocumentReport) -> std::fmt::Result {
         return Ok(());
     }
     let sum = |count: fn(&Sensitivity) -> usize| all.iter().map(|(_, s)| count(s)).sum::<usize>();
-    let (killed, different) = (sum(|s| s.killed), sum(|s| s.total - s.equivalent));
+    let (killed, different) = (sum(|s| s.killed), sum(|s| s.total - s.equivalent - s.weaker));
     writeln!(text, "  {killed} of {different} mutants that say something else fail")?;
     for (j, s) in all.iter().filter(|(_, s)| !s.survivors.is_empty()) {
         let edits: Vec<String> = s.survivors.iter().take(3).map(|e| one_line(e)).collect();

@@ -77,7 +77,7 @@ impl<'w> Elaborator<'w> {
             Kind::Juxt(_) | Kind::Product { .. } | Kind::Frac(..) => self.product(node),
             Kind::Sum(terms) => self.terms(terms),
             Kind::Sqrt { index, body } => self.root(index.as_deref(), body, &node.span),
-            Kind::Group { open: Delim::Angle, .. } if self.is_declared(node) => self.atom(node),
+            Kind::Group { open: Delim::Angle | Delim::Paren, .. } if self.is_declared(node) => self.atom(node),
             Kind::Group { open, close, body } => self.group(*open, *close, body, &node.span),
             Kind::List(items) => self.tuple(items),
             Kind::Matrix { env: MatrixEnv::Cases, rows } => self.case(rows, node),
@@ -324,6 +324,11 @@ impl<'w> Elaborator<'w> {
             let plain = self.value(&Node::new(kind, base.span.start..sub.map_or(base.span.end, |s| s.span.end)))?;
             return self.with_power(plain, sup, &node.span);
         }
+        if let (0, Some(sub), Kind::Group { .. }) = (primes, sub, &base.kind)
+            && let Some(there) = self.bracket_at(base, sub)?
+        {
+            return Ok(there);
+        }
         if let (0, Some(sub)) = (primes, sub)
             && let Some((basis, axis)) = self.scope.axis(&spelling(sub)).map(|(b, k)| (b.name.clone(), k))
             && (matches!(base.kind, Kind::Group { .. }) || self.is_declared(base))
@@ -336,6 +341,9 @@ impl<'w> Elaborator<'w> {
         {
             let inner = self.value(base)?;
             return Ok(self.started(&inner));
+        }
+        if let Some(delta) = self.kronecker(base, primes, sub)? {
+            return Ok(delta);
         }
         Err(self.not_declared(node))
     }

@@ -88,7 +88,13 @@ pub fn understand(world: &mut World, scope: &Scope, clause: &Clause, upper: bool
             }
         };
         let (mut left, mut right) = meet(&mut elaborator, lhs.value, rhs, clause)?;
-        if is_geometric(clause.rel) {
+        // Integrals along the motion are in proportion along it.
+        if let (Rel::Propto, Value::Scalar(a), Value::Scalar(b)) = (clause.rel, &left, &right)
+            && !elaborator.world.remembers(*a)
+            && !elaborator.world.remembers(*b)
+        {
+            link.rel = Rel::Propto;
+        } else if is_geometric(clause.rel) {
             (left, right) = as_equation(elaborator.world, clause.rel, &left, &right, &clause.lhs.span)?;
         }
         link.instances.push(Instance { tag: (!tag.is_empty()).then_some(tag), lhs: left, rhs: right });
@@ -125,7 +131,14 @@ fn meet(elaborator: &mut Elaborator, lhs: Value, rhs: Value, clause: &Clause) ->
         _ => (lhs, rhs),
     };
     let (lhs, rhs) = match quaternion::met(&mut elaborator.world.graph, &lhs, &rhs) {
-        Some(met) if elaborator.scope.quaternions && !is_null(elaborator, &lhs) && !is_null(elaborator, &rhs) => met,
+        Some(met)
+            if elaborator.scope.quaternions
+                && !is_geometric(clause.rel)
+                && !is_null(elaborator, &lhs)
+                && !is_null(elaborator, &rhs) =>
+        {
+            met
+        }
         _ => (lhs, rhs),
     };
     let span = match &clause.rhs {

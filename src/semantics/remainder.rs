@@ -16,7 +16,8 @@ pub fn without_remainder(node: &Node) -> Node {
     }
 }
 
-fn is_remainder(node: &Node) -> bool {
+/// Whether a term stands for what is left out: `\dots`, `\mathcal{O}(x^2)`.
+pub fn is_remainder(node: &Node) -> bool {
     match &node.kind {
         Kind::Ellipsis => true,
         Kind::Juxt(factors) => match factors.as_slice() {
