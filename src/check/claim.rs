@@ -232,29 +232,6 @@ impl<'b> Source<'b> {
         })
     }
 
-    /// Where the equation is part of a Fourier series, compares coefficients in the place of sums.
-    fn harmonics(&self, world: &mut World, premises: &Premises, branches: &mut [Branch]) -> Result<bool, Obstacle> {
-        let mut angles = Vec::new();
-        let texts = self.book.entries[self.index].list(|a| &a.harmonics);
-        let bound = world.graph.symbols(&premises.residuals);
-        for text in texts {
-            let obstacle = |message: &str| Obstacle::Premise(text.value.clone(), message.into(), text.span.clone());
-            for e in self.symbol(world, text)?.components() {
-                match *world.graph.node(e) {
-                    Node::Symbol(s) if bound.contains(&s) => {
-                        return Err(obstacle("the premises bind this angle; declare by `same` what depends on it"));
-                    }
-                    Node::Symbol(s) => angles.push(s),
-                    _ => return Err(obstacle("an angle of a Fourier series must be a symbol")),
-                }
-            }
-        }
-        let Some(first) = texts.first().filter(|_| !angles.is_empty()) else { return Ok(false) };
-        super::harmonics::project(world, branches, &angles)
-            .map_err(|message| Obstacle::Premise("harmonics".into(), message, first.span.clone()))?;
-        Ok(true)
-    }
-
     pub(super) fn branches(&self, world: &mut World, scope: &Scope, clause: &Clause) -> Result<Vec<TypedLink>, Error> {
         let mut links = Vec::new();
         for clause in semantics::independent_signs(clause) {

@@ -13,10 +13,11 @@
 
 use std::collections::HashMap;
 
-use crate::expr::{Expr, Func, Graph, SymId, Tape, Workspace};
+use crate::expr::{Expr, Func, Graph, Node as Op, SymId, Tape, Workspace};
 use crate::semantics::World;
 
-use super::claim::{Branch, Pair};
+use super::claim::{Branch, Obstacle, Pair, Source};
+use super::premises::Premises;
 
 /// The points in each angle that are tried one after another.
 const POINTS: [i64; 4] = [3, 5, 7, 9];
@@ -27,11 +28,44 @@ const MOST_VECTORS: i64 = 64;
 /// How large a harmonic must be to count, and how well a sum must be met, relative to the largest.
 const NOTICED: f64 = 1e-9;
 
+impl Source<'_> {
+    /// Where the equation is part of a Fourier series, compares coefficients in the place of sums.
+    ///
+    /// # Errors
+    /// An angle is none, or is bound by the premises; or what [`project`] refuses.
+    pub(super) fn harmonics(
+        &self,
+        world: &mut World,
+        premises: &Premises,
+        branches: &mut [Branch],
+    ) -> Result<bool, Obstacle> {
+        let mut angles = Vec::new();
+        let texts = self.book.entries[self.index].list(|a| &a.harmonics);
+        let bound = world.graph.symbols(&premises.residuals);
+        for text in texts {
+            let obstacle = |message: &str| Obstacle::Premise(text.value.clone(), message.into(), text.span.clone());
+            for e in self.symbol(world, text)?.components() {
+                match *world.graph.node(e) {
+                    Op::Symbol(s) if bound.contains(&s) => {
+                        return Err(obstacle("the premises bind this angle; declare by `same` what depends on it"));
+                    }
+                    Op::Symbol(s) => angles.push(s),
+                    _ => return Err(obstacle("an angle of a Fourier series must be a symbol")),
+                }
+            }
+        }
+        let Some(first) = texts.first().filter(|_| !angles.is_empty()) else { return Ok(false) };
+        project(world, branches, &angles)
+            .map_err(|message| Obstacle::Premise("harmonics".into(), message, first.span.clone()))?;
+        Ok(true)
+    }
+}
+
 /// Replaces the pairs of a claim by their Fourier coefficients.
 ///
 /// # Errors
 /// The sides are no trigonometric sums of a low degree in these angles, or the right one has no harmonics.
-pub(super) fn project(world: &mut World, branches: &mut [Branch], angles: &[SymId]) -> Result<(), String> {
+fn project(world: &mut World, branches: &mut [Branch], angles: &[SymId]) -> Result<(), String> {
     for branch in branches {
         let mut coefficients = Branch::new();
         for pair in std::mem::take(branch) {
