@@ -194,7 +194,7 @@ impl Elaborator<'_> {
             return Ok(found);
         }
         let (head, sup) = head_and_power(node);
-        if let Some(name) = function_name(head) {
+        if let Some(name) = function_name(head).filter(|_| !complex::is_unit(head)) {
             return self.function(name, sup, node, &items[1..]).map(|(t, n)| (t, n + 1));
         }
         match &head.kind {
