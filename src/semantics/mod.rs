@@ -13,6 +13,7 @@ mod apply;
 mod calculus;
 mod complex;
 mod counting;
+mod cyclic;
 mod elaborate;
 mod element;
 mod elliptic;
