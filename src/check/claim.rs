@@ -12,6 +12,7 @@ use crate::semantics::{self, Clause, Elaborator, Error, Scope, Side, TypedLink, 
 
 use super::book::{Book, Formula, Unclear, Version};
 use super::premises::Premises;
+use super::proportion;
 
 /// How deep values at the start of the motion may be made of others.
 const MOST_STARTS: usize = 16;
@@ -32,7 +33,7 @@ pub struct Pair {
 }
 
 impl Pair {
-    fn new(graph: &mut Graph, name: Option<String>, lhs: Expr, rhs: Expr) -> Self {
+    pub(super) fn new(graph: &mut Graph, name: Option<String>, lhs: Expr, rhs: Expr) -> Self {
         Pair { name, lhs, rhs, residual: graph.sub(lhs, rhs), start: false }
     }
 }
@@ -73,6 +74,8 @@ pub struct Claim {
     pub ordered: Vec<(Rel, Expr)>,
     /// Whether the premises say the same in as many terms: what holds then shows nothing.
     pub restated: bool,
+    /// Whether its pairs are coefficients of a Fourier series of which some terms are printed.
+    pub partial: bool,
 }
 
 /// What premises state, of scalars.
@@ -170,6 +173,8 @@ impl<'b> Source<'b> {
         }
         let restated = restates(&branches, &given.equal);
         given.equal.extend(world.integral_rates());
+        given.equal.extend(world.moment.iter().copied());
+        given.ordered.extend(world.precise().iter().map(|e| (Rel::Gt, *e)));
         let small = self.small(&mut world)?;
         let condition = self.condition(&mut world)?;
         let solve = self.solve(&mut world)?;
@@ -183,6 +188,13 @@ impl<'b> Source<'b> {
         let printed: Vec<Expr> = branches.iter().flatten().map(|pair| pair.residual).collect();
         let mentioned = world.graph.symbols(&printed);
         resolve(&mut world, &premises, &mut branches, typed.first().map(|link| link.rel));
+        if typed.first().is_some_and(|link| link.rel == Rel::Propto) {
+            let each = |branch: &Branch, world: &mut World| {
+                branch.iter().flat_map(|pair| proportion::pairs(world, pair)).collect::<Branch>()
+            };
+            branches = branches.iter().map(|branch| each(branch, &mut world)).collect();
+        }
+        let partial = self.harmonics(&mut world, &premises, &mut branches)?;
         for pair in branches.iter().flatten() {
             targets.extend([pair.residual, pair.lhs, pair.rhs]);
         }
@@ -216,15 +228,42 @@ impl<'b> Source<'b> {
             bound,
             ordered,
             restated,
+            partial,
         })
     }
 
+    /// Where the equation is part of a Fourier series, compares coefficients in the place of sums.
+    fn harmonics(&self, world: &mut World, premises: &Premises, branches: &mut [Branch]) -> Result<bool, Obstacle> {
+        let mut angles = Vec::new();
+        let texts = self.book.entries[self.index].list(|a| &a.harmonics);
+        let bound = world.graph.symbols(&premises.residuals);
+        for text in texts {
+            let obstacle = |message: &str| Obstacle::Premise(text.value.clone(), message.into(), text.span.clone());
+            for e in self.symbol(world, text)?.components() {
+                match *world.graph.node(e) {
+                    Node::Symbol(s) if bound.contains(&s) => {
+                        return Err(obstacle("the premises bind this angle; declare by `same` what depends on it"));
+                    }
+                    Node::Symbol(s) => angles.push(s),
+                    _ => return Err(obstacle("an angle of a Fourier series must be a symbol")),
+                }
+            }
+        }
+        let Some(first) = texts.first().filter(|_| !angles.is_empty()) else { return Ok(false) };
+        super::harmonics::project(world, branches, &angles)
+            .map_err(|message| Obstacle::Premise("harmonics".into(), message, first.span.clone()))?;
+        Ok(true)
+    }
+
     pub(super) fn branches(&self, world: &mut World, scope: &Scope, clause: &Clause) -> Result<Vec<TypedLink>, Error> {
-        let both =
-            semantics::has_branches(&clause.lhs) || matches!(&clause.rhs, Side::Node(n) if semantics::has_branches(n));
-        let mut links = vec![semantics::understand(world, scope, clause, true)?];
-        if both {
-            links.push(semantics::understand(world, scope, clause, false)?);
+        let mut links = Vec::new();
+        for clause in semantics::independent_signs(clause) {
+            let both = semantics::has_branches(&clause.lhs)
+                || matches!(&clause.rhs, Side::Node(n) if semantics::has_branches(n));
+            links.push(semantics::understand(world, scope, &clause, true)?);
+            if both {
+                links.push(semantics::understand(world, scope, &clause, false)?);
+            }
         }
         Ok(links)
     }
@@ -299,6 +338,10 @@ impl<'b> Source<'b> {
             return Ok(());
         }
         let link = semantics::understand(world, scope, clause, true)?;
+        // That numbers are proportional to each other says nothing of their values.
+        if link.rel == Rel::Propto {
+            return Ok(());
+        }
         let constant = clause.rhs == Side::Constant;
         for pair in self::pairs(world, &link, constant) {
             if ordered {

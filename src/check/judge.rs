@@ -13,7 +13,8 @@ use super::claim::{Claim, Obstacle, Source, obstacle_text, unclear_text};
 use super::decide;
 use super::general;
 use super::law;
-use super::order;
+use super::order::{self, Measure};
+use super::remark;
 use super::stateless;
 use super::trouble;
 use super::value;
@@ -106,10 +107,10 @@ pub fn blank(book: &Book, index: usize) -> Judgement {
     }
 }
 
-/// A misprint that is expected, and mended by a correction that holds, is no surprise; anything else that does
-/// not hold is.
+/// A misprint that is expected, and mended by a correction that holds, is no surprise, nor is a blank that is filled by
+/// one; anything else that does not hold is.
 fn as_expected(judgement: &Judgement) -> bool {
-    let correction_holds = judgement.correction.is_none() || judgement.is_erratum();
+    let correction_holds = judgement.correction.is_none() || judgement.is_mended();
     match judgement.expect {
         Some(expected) => judgement.verdict == expected && correction_holds,
         None => !matches!(judgement.verdict, Verdict::Fails | Verdict::Undecided | Verdict::Unreadable),
@@ -184,7 +185,8 @@ pub fn judge_tree(book: &Book, index: usize, tree: &Node, options: &Options) -> 
 pub(super) fn judge_statement(source: &Source, statement: &Statement, options: &Options) -> Outcome {
     let (book, index, version) = (source.book, source.index, source.version);
     let entry = &book.entries[index];
-    if statement.clauses.is_empty() {
+    let is_statement = entry.annotation().and_then(|a| a.kind.as_ref()).is_some_and(|k| k.value == "statement");
+    if statement.clauses.is_empty() || is_statement && statement.clauses.iter().all(remark::is_remark) {
         return nothing_to_evaluate(entry, version);
     }
     if !entry.list(|a| &a.solves).is_empty() {
@@ -380,8 +382,14 @@ fn link_verdict(source: &Source, clause: &Clause, scope: &Scope, known: &[Clause
     let mut judgement = unjudged(clause);
     let entry = &source.book.entries[source.index];
     let printed = value::is_value(source.book, source.index).then(|| value::printed(entry, clause)).flatten();
+    let small = entry.annotation().is_some_and(|a| a.small.is_some());
     let mapped = match clause.rel {
         _ if printed.is_some() => Clause { rel: Rel::Eq, ..clause.clone() },
+        // With a small parameter an arrow leads to the limit, and only what is said to be near is near.
+        Rel::To if small && entry.annotation().is_some_and(|a| a.maps.is_none()) => {
+            Clause { rel: Rel::Eq, ..clause.clone() }
+        }
+        Rel::Approx if small => Clause { rel: Rel::Eq, ..clause.clone() },
         Rel::To => match source.mapped(clause) {
             None => {
                 judgement.reason =
@@ -402,23 +410,34 @@ fn link_verdict(source: &Source, clause: &Clause, scope: &Scope, known: &[Clause
         Err(obstacle) => obstructed(judgement, source, clause, &obstacle),
         Ok(claim) => match printed.filter(|p| !p.is_arithmetic()) {
             Some(printed) => value::judge(judgement, source, clause, &printed, claim, options),
-            None => evaluate(judgement, claim, source, options),
+            None => evaluate(judgement, claim, clause.rel, source, options),
         },
     }
 }
 
-fn evaluate(judgement: LinkJudgement, claim: Claim, source: &Source, options: &Options) -> LinkJudgement {
+/// Evaluates a claim that is made by a link with the relation `printed`.
+fn evaluate(judgement: LinkJudgement, claim: Claim, printed: Rel, source: &Source, options: &Options) -> LinkJudgement {
     let restated = claim.restated;
-    let judged = by_relation(judgement, claim, source, options);
+    let judged = by_relation(judgement, claim, printed, source, options);
     LinkJudgement { restated: restated && judged.verdict == Verdict::Holds, ..judged }
 }
 
-fn by_relation(judgement: LinkJudgement, claim: Claim, source: &Source, options: &Options) -> LinkJudgement {
-    let name = format!("{}/{}", source.book.entries[source.index].equation.label, judgement.latex);
+fn by_relation(
+    judgement: LinkJudgement,
+    claim: Claim,
+    printed: Rel,
+    source: &Source,
+    options: &Options,
+) -> LinkJudgement {
+    let entry = &source.book.entries[source.index];
+    let name = format!("{}/{}", entry.equation.label, judgement.latex);
+    let near = |clause: &Clause| matches!(clause.rel, Rel::Approx | Rel::To);
+    let told = source.book.statement(source.index, source.version).is_ok_and(|s| s.clauses.iter().any(near));
     match (claim.small, claim.rel) {
-        (Some(_), Rel::Eq | Rel::Equiv) => {
-            let claimed = source.book.entries[source.index].annotation().and_then(|a| a.order);
-            order::judge(judgement, claim, claimed, &name, options)
+        (Some(_), Rel::Eq | Rel::Equiv) if printed != Rel::Eq || !told => {
+            let claimed = entry.annotation().and_then(|a| a.order);
+            let measure = if printed == Rel::To { Measure::Absolute } else { Measure::Relative };
+            order::judge(judgement, claim, measure, claimed, &name, options)
         }
         (_, Rel::Lt | Rel::Le | Rel::Gt | Rel::Ge) => decide::inequality(judgement, claim, &name, options),
         _ => decide::equality(judgement, claim, &name, options),

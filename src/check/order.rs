@@ -1,5 +1,5 @@
 //! Approximations: the residual, relative to the terms it is made of, must fall with the small parameter at the order
-//! that is claimed. The order is measured over halvings of the parameter, in numbers precise enough that rounding
+//! that is claimed. Limits: the residual itself must fall. The order is measured over halvings of the parameter, in numbers precise enough that rounding
 //! plays no part.
 
 use std::collections::BTreeMap;
@@ -25,10 +25,20 @@ const SHORTFALL: f64 = 0.1;
 /// The residuals of one state over the halvings: the parameter and the residual relative to its terms.
 type Course = Vec<(f64, f64)>;
 
-/// Judges an approximation. Without a claimed order, any positive one will do.
+/// What a residual is compared with.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Measure {
+    /// The terms that it is made of: for approximations.
+    Relative,
+    /// Nothing: for limits, which may be zero.
+    Absolute,
+}
+
+/// Judges an approximation or a limit. Without a claimed order, any positive one will do.
 pub fn judge(
     mut judgement: LinkJudgement,
     mut claim: Claim,
+    measure: Measure,
     claimed: Option<f64>,
     name: &str,
     options: &Options,
@@ -46,7 +56,7 @@ pub fn judge(
         if courses.len() == STATES || deadline.has_passed() {
             break;
         }
-        if let Some((course, last)) = course(&sampler, small, reciprocal, &mut random) {
+        if let Some((course, last)) = course(&sampler, (small, reciprocal), measure, &mut random) {
             courses.push(course);
             example.get_or_insert(last);
         }
@@ -99,7 +109,12 @@ pub fn judge(
 }
 
 /// Follows one state while the parameter is halved again and again.
-fn course(sampler: &Sampler, small: SymId, reciprocal: bool, random: &mut Random) -> Option<(Course, State)> {
+fn course(
+    sampler: &Sampler,
+    (small, reciprocal): (SymId, bool),
+    measure: Measure,
+    random: &mut Random,
+) -> Option<(Course, State)> {
     let facts = sampler.claim.world.facts(small);
     let largest = facts.range.map_or(if reciprocal { 8.0 } else { 0.25 }, |r| r[1].abs().max(r[0].abs()));
     let first = if reciprocal { 1.0 / largest } else { largest };
@@ -126,15 +141,17 @@ fn course(sampler: &Sampler, small: SymId, reciprocal: bool, random: &mut Random
         sampler.system.solve(&mut state, &from).ok().filter(|()| sampler.is_allowed(&state))?;
         last_start = sampler.system.unknowns.iter().map(|u| state.values[u.symbol.index()]).collect();
         let parameter = if reciprocal { 1.0 / value.to_f64() } else { value.to_f64() };
-        course.push((parameter, relative_residual::<Df64>(sampler, &state, &mut work)?));
+        course.push((parameter, residual::<Df64>(sampler, &state, measure, &mut work)?));
     }
     Some((course, state))
 }
 
-/// The largest residual of the pairs, relative to the largest sum of terms; zero where it is below its own rounding.
-fn relative_residual<N: Real<Context = ()>>(
+/// The largest residual of the pairs, zero where it is below its own rounding; relative to the largest sum of terms, if
+/// it is so measured.
+fn residual<N: Real<Context = ()>>(
     sampler: &Sampler,
     state: &State,
+    measure: Measure,
     work: &mut Workspace<crate::number::Tracked<N>>,
 ) -> Option<f64> {
     let branches = sampler.evaluate::<N>(state, &(), work)?;
@@ -142,7 +159,10 @@ fn relative_residual<N: Real<Context = ()>>(
     if pairs.iter().any(|p| !p.is_finite()) {
         return None;
     }
-    let scale = pairs.iter().map(|p| p.scale_log2).fold(f64::NEG_INFINITY, f64::max);
+    let scale = match measure {
+        Measure::Relative => pairs.iter().map(|p| p.scale_log2).fold(f64::NEG_INFINITY, f64::max),
+        Measure::Absolute => 0.0,
+    };
     let size = pairs
         .iter()
         .filter(|p| !p.residual.is_zero_within())

@@ -82,7 +82,7 @@ impl<'b> Screen<'b> {
         let source = Source::new(book, index, version).until(Deadline::after(options.budget));
         let entry = &book.entries[index];
         let claim = source.claim_of(clauses, &entry.scope, known, related).ok();
-        let mut claim = claim.filter(|c| c.small.is_none() && c.condition.is_none())?;
+        let mut claim = claim.filter(|c| c.small.is_none() && !c.partial && c.condition.is_none())?;
         let mut random = Random::new(options.seed, &format!("{}/screen", entry.equation.label));
         let sampler = Sampler::new(&mut claim, &mut random, &[]).ok()?;
         let states = sampler.states(STATES, &mut random, &BTreeMap::new()).ok()?;

@@ -362,7 +362,7 @@ impl Bench {
             return None;
         }
         let entry = &source.book.entries[source.index];
-        let mut claim = source.claim(&clause, &entry.scope, known).ok().filter(|c| c.small.is_none())?;
+        let mut claim = source.claim(&clause, &entry.scope, known).ok().filter(|c| c.small.is_none() && !c.partial)?;
         let mut random = Random::new(options.seed, &format!("{}/trial", entry.equation.label));
         let sampler = Sampler::new(&mut claim, &mut random, &[]).ok()?;
         let states = sampler.states(STATES, &mut random, &BTreeMap::new()).ok()?;

@@ -2,9 +2,10 @@
 //!
 //! An equation of `kind = "value"` is evaluated with the values that its `data` give to symbols and with its premises. The
 //! digits are read off the printed LaTeX. The rules, by what the printed side is:
-//! - one numeral, perhaps with a power of ten, a unit, or below a 1: it is rounded, and the other side must agree to half a
-//!   unit of its last printed digit (with `digits = n`, of its n-th significant digit), the end of that interval included;
-//! - a power of ten alone: an order of magnitude, right to within a factor of √10 either way;
+//! - one numeral, perhaps with a power of ten, a unit, or below a 1: it is rounded, and the other side must lie between the
+//!   values of the printed side with half a unit of the last printed digit (with `digits = n`, of the n-th significant digit)
+//!   less and more, the ends included;
+//! - a power of ten alone, also `\sim 10`: an order of magnitude, right to within a factor of √10 either way;
 //! - a ratio p : q of whole numbers (q > 1) beside a relation other than `=`: the other side x must have p/q as a convergent of its
 //!   continued fraction, |x - p/q| < 1/(2q²) (Legendre);
 //! - anything else is arithmetic with the numbers that were put in, and must be equal to the other side.
@@ -15,7 +16,7 @@
 use std::collections::BTreeMap;
 
 use crate::expr::{Expr, Node as Op, Tape, Workspace};
-use crate::latex::ast::{Kind, Node, Rel};
+use crate::latex::ast::{Delim, Kind, Node, Rel, Sign, Term};
 use crate::number::{Df64, Number};
 use crate::semantics::units::Dimension;
 use crate::semantics::{self, Clause, Scope, Side, Value};
@@ -25,16 +26,23 @@ use super::claim::{Claim, Obstacle, Source, Stated};
 use super::judge::Options;
 use super::random::Random;
 use super::sampling::{Sampler, no_state_text};
+use super::system::State;
 use super::verdict::{LinkJudgement, Strength, Verdict};
 
 /// How far beyond half a unit the arithmetic may lie, relative to it: printed halves are not binary fractions.
 const SLACK: f64 = 1e-12;
 
+/// The states at which a value must be the same, where symbols are left free.
+const STATES: usize = 3;
+
+/// The letters that are units of time where they are declared as times.
+const UNITS_OF_TIME: [&str; 4] = ["y", "d", "h", "s"];
+
 /// What a printed side is.
 #[derive(Clone, Debug, PartialEq)]
 enum Form {
-    /// A numeral, with the side in which half a unit of its last digit is added to it, and its significant digits.
-    Rounded(Node, u32),
+    /// A numeral: the side with half a unit of its last digit less, and more.
+    Rounded([Node; 2]),
     /// A power of ten.
     Magnitude,
     /// A ratio of whole numbers, with the second.
@@ -70,7 +78,8 @@ pub fn printed(entry: &Entry, clause: &Clause) -> Option<Printed> {
         return None;
     }
     let Side::Node(rhs) = &clause.rhs else { return None };
-    let form = |side: &Node| is_numeric(entry, side).then(|| form(side, clause.rel));
+    let digits = entry.annotation().and_then(|a| a.digits);
+    let form = |side: &Node| is_numeric(entry, side).then(|| form(side, clause.rel, digits));
     let (lhs, rhs) = (form(&clause.lhs), form(rhs));
     match (lhs, rhs) {
         (Some(form), None | Some(Form::Arithmetic)) => Some(Printed { form, left: true }),
@@ -120,21 +129,24 @@ fn compared(
     options: &Options,
 ) -> Result<LinkJudgement, Missing> {
     let entry = &source.book.entries[source.index];
-    let shifted = match &printed.form {
-        Form::Rounded(shifted, _) => Some(scalar(&mut claim, &entry.scope, shifted)?),
-        _ => None,
-    };
-    let mut random = Random::new(options.seed, &clause.latex());
-    let extra: Vec<Expr> = shifted.into_iter().collect();
-    let tape = Tape::compile(&claim.world.graph, &extra);
-    let sampler = Sampler::new(&mut claim, &mut random, &extra).map_err(|e| Missing::Why(no_state_text(&e)))?;
-    if let Some(free) = sampler.system.free.iter().find(|s| sampler.tape.inputs().contains(&s.symbol)) {
-        return Err(Missing::Data(sampler.claim.world.tex(free.symbol)));
+    let mut ends = Vec::new();
+    if let Form::Rounded(shifted) = &printed.form {
+        for side in shifted {
+            ends.push(scalar(&mut claim, &entry.scope, side)?);
+        }
     }
-    let states = sampler.states(1, &mut random, &BTreeMap::new()).map_err(|e| Missing::Why(no_state_text(&e)))?;
+    let mut random = Random::new(options.seed, &clause.latex());
+    let tape = Tape::compile(&claim.world.graph, &ends);
+    let sampler = Sampler::new(&mut claim, &mut random, &ends).map_err(|e| Missing::Why(no_state_text(&e)))?;
+    let states = sampler.states(STATES, &mut random, &BTreeMap::new()).map_err(|e| Missing::Why(no_state_text(&e)))?;
     let (Some(state), [branch]) = (states.first(), sampler.claim.branches.as_slice()) else {
         return Err(Missing::Why("a printed value is one number".into()));
     };
+    if let Some(free) = sampler.system.free.iter().find(|s| sampler.tape.inputs().contains(&s.symbol))
+        && !is_one_number(&sampler, &states)
+    {
+        return Err(Missing::Data(sampler.claim.world.tex(free.symbol)));
+    }
     let values = sampler.evaluate::<Df64>(state, &(), &mut Workspace::default());
     let (Some(values), [pair]) = (values, branch.as_slice()) else {
         return Err(Missing::Why("a printed value is one number".into()));
@@ -142,27 +154,24 @@ fn compared(
     let value = &values[0][0];
     let (lhs, rhs) = (value.lhs.value().to_f64(), value.rhs.value().to_f64());
     let (shown, other) = if printed.left { (lhs, rhs) } else { (rhs, lhs) };
-    let difference = value.residual.value().to_f64().abs();
-    let half = match extra.is_empty() {
-        true => 0.0,
+    let ends = match ends.is_empty() {
+        true => [shown; 2],
         false => {
             let Some(refined) = sampler.system.refine::<Df64>(state, &()) else {
                 return Err(Missing::Why("the premises could not be solved precisely".into()));
             };
             let inputs: Vec<_> = tape.inputs().iter().map(|s| refined[s.index()].clone()).collect();
-            (tape.eval(&inputs, &(), &mut Workspace::default())[0].value().to_f64() - shown).abs()
+            let mut work = Workspace::default();
+            let ends = tape.eval(&inputs, &(), &mut work);
+            [ends[0].value().to_f64(), ends[1].value().to_f64()]
         }
     };
-    let (allowed, rule) = allowance(&printed.form, shown, half, entry.annotation().and_then(|a| a.digits));
-    let agrees = match &printed.form {
-        Form::Magnitude => other * shown > 0.0 && (other / shown).log10().abs() <= 0.5,
-        _ => difference <= allowed * (1.0 + SLACK),
-    };
+    let (agrees, rule) = agreement(&printed.form, shown, other, ends);
     let example = (!agrees).then(|| sampler.counterexample(state, &(), pair, value, &[]));
     Ok(LinkJudgement {
         verdict: if agrees { Verdict::Holds } else { Verdict::Fails },
         strength: Some(Strength::Numeric),
-        residual: Some(difference / shown.abs()),
+        residual: Some((other - shown).abs() / shown.abs()),
         states: 1,
         failing_states: usize::from(!agrees),
         counterexample: example,
@@ -172,19 +181,36 @@ fn compared(
     })
 }
 
-/// How far the other side may be away, and the rule in words.
-fn allowance(form: &Form, shown: f64, half: f64, digits: Option<u32>) -> (f64, String) {
+/// Whether the sides are in the same ratio at all states, and so do not depend on what is still free: C - A in units of C, a
+/// rate in units of the day.
+fn is_one_number(sampler: &Sampler, states: &[State]) -> bool {
+    let mut work = Workspace::default();
+    let mut ratios = states.iter().map(|state| {
+        let values = sampler.evaluate::<Df64>(state, &(), &mut work)?;
+        let value = values.first()?.first()?;
+        Some(value.lhs.value().to_f64() / value.rhs.value().to_f64())
+    });
+    let Some(Some(first)) = ratios.next() else { return false };
+    states.len() > 1 && ratios.all(|ratio| ratio.is_some_and(|ratio| (ratio - first).abs() <= SLACK * first.abs()))
+}
+
+/// Whether the other side agrees with what is shown, and the rule in words. `ends` are the ends of what rounds to it.
+fn agreement(form: &Form, shown: f64, other: f64, ends: [f64; 2]) -> (bool, String) {
     match form {
-        Form::Rounded(_, printed) => {
-            let kept = digits.map_or(*printed, |d| d.min(*printed));
-            let unit = (*printed).saturating_sub(kept);
-            let allowed = half * 10f64.powi(i32::try_from(unit).unwrap_or(i32::MAX));
-            let digit = if unit == 0 { "last digit".to_owned() } else { format!("significant digit {kept}") };
-            (allowed, format!("half a unit of the {digit} is {}", decimal(allowed)))
+        Form::Rounded(_) | Form::Arithmetic => {
+            let [low, high] = [ends[0].min(ends[1]), ends[0].max(ends[1])];
+            let slack = SLACK * shown.abs();
+            let rule = format!("half a unit of the last digit allows {} to {}", decimal(low), decimal(high));
+            ((low - slack..=high + slack).contains(&other), rule)
         }
-        Form::Ratio(q) => (0.5 / (q * q), format!("a best fraction is near to within {}", decimal(0.5 / (q * q)))),
-        Form::Magnitude => (shown.abs(), "an order of magnitude is right to within a factor of √10".into()),
-        Form::Arithmetic => (0.0, "arithmetic is exact".into()),
+        Form::Ratio(q) => {
+            let allowed = 0.5 / (q * q);
+            ((other - shown).abs() < allowed, format!("a best fraction is near to within {}", decimal(allowed)))
+        }
+        Form::Magnitude => {
+            let near = other * shown > 0.0 && (other / shown).log10().abs() <= 0.5;
+            (near, "an order of magnitude is right to within a factor of √10".into())
+        }
     }
 }
 
@@ -215,8 +241,7 @@ fn is_name(entry: &Entry, side: Option<&Node>) -> bool {
     })
 }
 
-/// Whether a side holds numerals, and beside them only operations, words, π and units of time: letters that are declared
-/// as a time and have a value among the data.
+/// Whether a side holds numerals, and beside them only operations, words, π and units of time.
 fn is_numeric(entry: &Entry, side: &Node) -> bool {
     fn only_numbers(entry: &Entry, node: &Node) -> bool {
         match &node.kind {
@@ -227,16 +252,15 @@ fn is_numeric(entry: &Entry, side: &Node) -> bool {
             _ => node.children().into_iter().all(|child| only_numbers(entry, child)),
         }
     }
-    only_numbers(entry, side) && !(numerals(side).is_empty() && !has_power_of_ten(side))
+    (has_power_of_ten(side) || !numerals(side).is_empty()) && only_numbers(entry, side)
 }
 
 fn is_unit_of_time(entry: &Entry, letter: &str) -> bool {
-    let given = entry.annotation().is_some_and(|a| a.data.iter().any(|(name, _)| name.value == letter));
-    given && letter.len() == 1 && entry.scope.get(letter).is_some_and(|e| e.dimension == Some(Dimension::TIME))
+    UNITS_OF_TIME.contains(&letter) && entry.scope.get(letter).is_some_and(|e| e.dimension == Some(Dimension::TIME))
 }
 
 /// What a numeric side is, beside a relation.
-fn form(side: &Node, rel: Rel) -> Form {
+fn form(side: &Node, rel: Rel, digits: Option<u32>) -> Form {
     let found = numerals(side);
     if found.is_empty() {
         return Form::Magnitude;
@@ -255,9 +279,10 @@ fn form(side: &Node, rel: Rel) -> Form {
     // The 1 above a numeral, and that of 1 : x.
     let counted: Vec<_> = found.iter().filter(|(_, text)| *text != "1" || found.len() == 1).collect();
     match counted.as_slice() {
+        [(_, text)] if rel == Rel::Sim && text.len() > 1 && text.trim_end_matches('0') == "1" => Form::Magnitude,
         [(span, text)] => {
-            let longer = if text.contains('.') { format!("{text}5") } else { format!("{text}.5") };
-            Form::Rounded(with_numeral(side, span, &longer), significant(text))
+            let half = half_unit(text, digits);
+            Form::Rounded([Sign::Minus, Sign::Plus].map(|sign| shifted(side, span, sign, &half)))
         }
         _ => Form::Arithmetic,
     }
@@ -279,10 +304,17 @@ fn whole(node: &Node) -> Option<f64> {
     }
 }
 
-/// The significant digits of a numeral; zeros at its end count, as they are printed.
-fn significant(text: &str) -> u32 {
-    let digits = text.chars().filter(char::is_ascii_digit).skip_while(|c| *c == '0').count();
-    u32::try_from(digits).unwrap_or(u32::MAX)
+/// Half a unit of a numeral's last digit, or of the significant digit of that number. Zeros at its end count, as they are
+/// printed.
+fn half_unit(text: &str, digits: Option<u32>) -> String {
+    let decimals = text.split_once('.').map_or(0, |(_, fraction)| fraction.len());
+    let significant = text.chars().filter(char::is_ascii_digit).skip_while(|c| *c == '0').count();
+    let kept = digits.and_then(|d| usize::try_from(d).ok()).map_or(significant, |d| d.clamp(1, significant.max(1)));
+    // The place of the last digit that counts: so many behind the point, or before it.
+    match decimals.checked_sub(significant.saturating_sub(kept)) {
+        Some(place) => format!("0.{}5", "0".repeat(place)),
+        None => format!("5{}", "0".repeat(significant - kept - decimals - 1)),
+    }
 }
 
 /// The numerals of a side with their places; not exponents, nor the 10 below one.
@@ -300,10 +332,14 @@ fn is_power_of_ten(node: &Node) -> bool {
     match &node.kind {
         Kind::Scripts { base, sup: Some(sup), .. } => {
             let ten = matches!(&base.kind, Kind::Number(n) if n == "10");
-            ten && !matches!(&sup.kind, Kind::Symbol(s) if s == "\\circ")
+            ten && !is_degree(sup)
         }
         _ => false,
     }
+}
+
+fn is_degree(sup: &Node) -> bool {
+    matches!(&sup.kind, Kind::Symbol(s) if s == "\\circ")
 }
 
 fn has_power_of_ten(node: &Node) -> bool {
@@ -314,11 +350,31 @@ fn has_function(node: &Node) -> bool {
     matches!(node.kind, Kind::Function(_)) || node.children().into_iter().any(has_function)
 }
 
-/// The side with another text for the numeral at a place.
-fn with_numeral(node: &Node, span: &std::ops::Range<usize>, text: &str) -> Node {
+/// The side in which something is added to the numeral at a place.
+fn shifted(node: &Node, span: &std::ops::Range<usize>, sign: Sign, by: &str) -> Node {
     match &node.kind {
-        Kind::Number(_) if node.span == *span => Node::new(Kind::Number(text.to_owned()), node.span.clone()),
-        _ => node.map_children(&mut |child| with_numeral(child, span, text)),
+        Kind::Number(_) if node.span == *span => {
+            let by = Node::new(Kind::Number(by.to_owned()), span.clone());
+            let term = |sign, node| Term { sign, sign_span: None, node };
+            let sum = Node::new(Kind::Sum(vec![term(Sign::Plus, node.clone()), term(sign, by)]), span.clone());
+            let kind = Kind::Group { open: Delim::Paren, close: Delim::Paren, body: Box::new(sum) };
+            Node::new(kind, span.clone())
+        }
+        // The unit of an angle is that of what is added, too.
+        Kind::Scripts { base, primes, sub: None, sup }
+            if base.span == *span && (*primes > 0 || matches!(sup.as_deref(), Some(n) if is_degree(n))) =>
+        {
+            let angle = |text: &str| {
+                let base = Box::new(Node::new(Kind::Number(text.to_owned()), span.clone()));
+                let kind = Kind::Scripts { base, primes: *primes, sub: None, sup: sup.clone() };
+                Node::new(kind, node.span.clone())
+            };
+            let term = |sign, node| Term { sign, sign_span: None, node };
+            let sum = Kind::Sum(vec![term(Sign::Plus, node.clone()), term(sign, angle(by))]);
+            let body = Box::new(Node::new(sum, node.span.clone()));
+            Node::new(Kind::Group { open: Delim::Paren, close: Delim::Paren, body }, node.span.clone())
+        }
+        _ => node.map_children(&mut |child| shifted(child, span, sign, by)),
     }
 }
 
@@ -328,7 +384,12 @@ impl Source<'_> {
         let entry = &self.book.entries[self.index];
         let Some(annotation) = entry.annotation() else { return Ok(()) };
         for (name, value) in &annotation.data {
-            let (symbol, number) = (self.symbol(world, name)?, self.symbol(world, value)?);
+            let symbol = self.symbol(world, name)?;
+            // A number of TOML has its exponent behind an e.
+            let number = match world.graph.decimal(&value.value) {
+                Some(number) => Value::Scalar(number),
+                None => self.symbol(world, value)?,
+            };
             let wrong = |message: &str| Obstacle::Premise(name.value.clone(), message.into(), name.span.clone());
             match (&symbol, &number) {
                 (Value::Scalar(s), Value::Scalar(x)) if matches!(world.graph.node(*s), Op::Symbol(_)) => {

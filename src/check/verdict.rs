@@ -413,11 +413,13 @@ impl Judgement {
     pub fn is_erratum(&self) -> bool {
         let lost =
             matches!(self.verdict, Verdict::Undecided | Verdict::Unreadable) && self.expect == Some(self.verdict);
-        (self.verdict == Verdict::Fails || lost)
-            && self
-                .correction
-                .as_ref()
-                .is_some_and(|c| matches!(c.verdict, Verdict::Holds | Verdict::Asymptotic | Verdict::Definition))
+        (self.verdict == Verdict::Fails || lost) && self.is_mended()
+    }
+
+    /// Whether it has a correction that holds.
+    pub fn is_mended(&self) -> bool {
+        let holds = |c: &Correction| matches!(c.verdict, Verdict::Holds | Verdict::Asymptotic | Verdict::Definition);
+        self.correction.as_ref().is_some_and(holds)
     }
 }
 

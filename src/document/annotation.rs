@@ -48,6 +48,8 @@ pub struct EquationAnnotation {
     pub range: Vec<(Spanned<String>, [f64; 2])>,
     /// An approximation's small parameter.
     pub small: Option<Spanned<String>>,
+    /// The angles of a Fourier series of which some terms are printed.
+    pub harmonics: Vec<Spanned<String>>,
     /// The order of an approximation's residual in the small parameter.
     pub order: Option<f64>,
     /// The statement that it is equivalent to.
@@ -90,7 +92,7 @@ pub struct LinkPremises {
 }
 
 /// The keys of an equation's annotation, those of declarations not included.
-pub const KEYS: [&str; 22] = [
+pub const KEYS: [&str; 23] = [
     "label",
     "for",
     "kind",
@@ -102,6 +104,7 @@ pub const KEYS: [&str; 22] = [
     "link",
     "range",
     "small",
+    "harmonics",
     "order",
     "iff",
     "maps",
@@ -173,6 +176,7 @@ pub(super) fn equation(table: &Table, span: Span, reader: &mut Reader) -> Equati
             "where" => found.where_ = reader.texts(key, value),
             "link" => found.link = links(key, value, reader),
             "range" => found.range = ranges(key, value, reader),
+            "harmonics" => found.harmonics = reader.texts(key, value),
             "small" => found.small = reader.text(key, value),
             "order" => found.order = reader.number(key, value),
             "iff" => found.iff = reader.text(key, value),

@@ -3,7 +3,8 @@
 //!
 //! The promise: the exact result of the same operations on the exact operands differs from the value by at most the
 //! bound. It is not only of first order: slopes are taken at their largest within the operands' bounds, and where they
-//! have none (division by what may be zero, a root near zero) the bound is infinite. The bounds themselves are computed
+//! have none (division by what may be zero) the bound is infinite; a root of what may be zero moves by the root of the
+//! bound, as long as it has one at all. The bounds themselves are computed
 //! in machine numbers, and rounded up.
 
 use super::{Elliptic, Func, Number, Operation, Real, elliptic};
@@ -146,6 +147,12 @@ impl<N: Real> Tracked<N> {
     }
 }
 
+/// Whether a function is zero where its variable is, and is computed so.
+fn vanishes_at_zero(f: Func) -> bool {
+    use Func::*;
+    matches!(f, Sin | Tan | Asin | Atan | Sinh | Tanh | Asinh | Atanh | Abs | Sign)
+}
+
 /// The bits of the roundoff.
 fn bits<N: Number>(x: &N) -> u32 {
     N::precision_bits(&x.context())
@@ -183,7 +190,7 @@ impl<N: Real> Number for Tracked<N> {
         Tracked::made(value, if exact { 0.0 } else { 1.0 })
     }
     fn from_ratio(n: i128, d: i128, cx: &N::Context) -> Self {
-        let small = d == 1 && n.unsigned_abs() < 1 << N::precision_bits(cx).min(53);
+        let small = n == 0 || d == 1 && n.unsigned_abs() < 1 << N::precision_bits(cx).min(53);
         Tracked::made(N::from_ratio(n, d, cx), if small { 0.0 } else { N::rounding(Operation::Div) })
     }
     fn pi(cx: &N::Context) -> Self {
@@ -244,6 +251,10 @@ impl<N: Real> Number for Tracked<N> {
         let quotient = magnitude(&self.value) * (1.0 + 1e-9) + f64::MIN_POSITIVE;
         let distance = ea + moved(quotient, eb);
         let low = b.range().0;
+        if a.is_zero() && low > 0.0 {
+            self.error = 0.0;
+            return;
+        }
         let propagated = if !b.within_reach() || low == 0.0 { f64::INFINITY } else { distance / low };
         self.close(propagated, rounding);
     }
@@ -281,6 +292,16 @@ impl<N: Real> Number for Tracked<N> {
     }
     fn set_sqrt(&mut self, a: &Self) {
         self.value.set_sqrt(&a.value);
+        let radius = a.radius();
+        let x = a.value.to_f64();
+        if radius > 0.0 && radius.is_finite() && x.abs() <= radius {
+            // The exact operand may be zero. As it has a root it is between 0 and x + ea, and |√x - √y| ≤ √|x - y|.
+            if x < 0.0 {
+                self.value = a.value.like(0.0);
+            }
+            let error = radius.sqrt() * f64::exp2(f64::from(bits(&self.value).min(900)));
+            return self.close(error, N::rounding(Operation::Sqrt));
+        }
         let error = a.error_in(bits(&self.value));
         // √ over [a - ea, a + ea] moves by at most ea / (√a + √(a - ea)).
         let (low, _) = a.range();
@@ -294,6 +315,10 @@ impl<N: Real> Number for Tracked<N> {
     }
     fn set_call(&mut self, f: Func, a: &Self) {
         self.value.set_call(f, &a.value);
+        if a.is_zero() && vanishes_at_zero(f) {
+            self.error = 0.0;
+            return;
+        }
         let error = a.error_in(bits(&self.value));
         let lost = f == Func::Ln && !a.within_reach();
         let slope = Self::slope(f, a, &self.value);
@@ -327,6 +352,10 @@ impl<N: Real> Number for Tracked<N> {
     fn set_sin_cos(sin: &mut Self, cos: &mut Self, a: &Self) {
         N::set_sin_cos(&mut sin.value, &mut cos.value, &a.value);
         for (f, x) in [(Func::Sin, sin), (Func::Cos, cos)] {
+            if a.is_zero() && vanishes_at_zero(f) {
+                x.error = 0.0;
+                continue;
+            }
             let error = a.error_in(bits(&x.value));
             let slope = Self::slope(f, a, &x.value);
             x.close(moved(slope, error), N::rounding(Operation::Call(f)));

@@ -187,6 +187,35 @@ fn a_true_zero_is_within_and_a_false_one_is_not() {
 }
 
 #[test]
+fn what_is_exactly_zero_stays_so() {
+    let zero = Tracked::<Df64>::from_ratio(0, 7, &());
+    let third = Tracked::<Df64>::from_ratio(1, 3, &());
+    let (mut sin, mut cos) = (zero.clone(), zero.clone());
+    Number::set_sin_cos(&mut sin, &mut cos, &zero);
+    let tan = zero.apply(Func::Tan);
+    let quotient = zero.over(&third);
+    for x in [&sin, &tan, &quotient] {
+        assert!(x.error_log2() == f64::NEG_INFINITY && x.to_f64() == 0.0, "{x:?}");
+    }
+    assert!(cos.error_log2() > f64::NEG_INFINITY);
+    assert!(zero.over(&Tracked::with_error(Df64::zero(&()), -40.0)).error_log2() == f64::INFINITY);
+}
+
+#[test]
+fn a_root_of_what_may_be_zero_moves_by_the_root_of_the_bound() {
+    for value in [0.0, 1e-13, -1e-13] {
+        let x = Tracked::with_error(Df64::from(value), -40.0).root();
+        // The exact operand is at most 2^-40 away.
+        for exact in [value, value + 0.9 * f64::exp2(-40.0)] {
+            let miss = (x.to_f64() - exact.max(0.0).sqrt()).abs();
+            assert!(miss.log2() <= x.error_log2(), "{value}: {miss} {x:?}");
+        }
+        assert!(x.error_log2() < -19.0);
+    }
+    assert!(Tracked::with_error(Df64::from(-1.0), -40.0).root().error_log2() == f64::INFINITY);
+}
+
+#[test]
 fn what_may_be_singular_has_no_bound() {
     let near_zero = Tracked::with_error(1e-20_f64, 1e-10_f64.log2());
     let one = near_zero.like(1.0);
@@ -195,7 +224,6 @@ fn what_may_be_singular_has_no_bound() {
     let beyond = one.plus(&near_zero);
     let results = [
         one.over(&near_zero),
-        near_zero.root(),
         near_zero.apply(Func::Ln),
         near_zero.apply(Func::Sign),
         near_zero.to_the(-2),

@@ -69,45 +69,6 @@ impl Elaborator<'_> {
         Ok(Typed::new(value, text))
     }
 
-    /// Whether a symbol is another notation of the time.
-    fn is_time(&mut self, variable: &Node) -> bool {
-        let is_alias = self.entry(variable).is_some_and(|(e, _)| matches!(e.kind, EntryKind::Same(_)));
-        let value = if is_alias { self.value(variable).ok() } else { None };
-        match value.map(|typed| typed.value) {
-            Some(Value::Scalar(e)) => {
-                matches!(*self.world.graph.node(e), crate::expr::Node::Symbol(s) if self.world.graph.find("t") == Some(s))
-            }
-            _ => false,
-        }
-    }
-
-    /// The partial derivative of a value by a symbol.
-    fn partial(&mut self, value: &Value, variable: &Node, span: &Span) -> Result<Value> {
-        let by = self.value(variable)?;
-        let mut by_symbol = |x: Expr| match *self.world.graph.node(x) {
-            crate::expr::Node::Symbol(id) => Ok(value.map(&mut |e| self.world.graph.diff(e, id))),
-            _ => {
-                let name = spelling(variable);
-                Err(Error::unsupported(format!("a derivative with respect to {name}, which is no symbol"), span))
-            }
-        };
-        match (&by.value, value) {
-            // The gradient.
-            (Value::Vector(v), Value::Scalar(_)) => {
-                let parts = v.iter().map(|x| by_symbol(*x)).collect::<Result<Vec<_>>>()?;
-                match parts.as_slice() {
-                    [Value::Scalar(x), Value::Scalar(y), Value::Scalar(z)] => Ok(Value::Vector([*x, *y, *z])),
-                    _ => Err(Error::shape("a gradient has three components", span)),
-                }
-            }
-            (Value::Scalar(x), _) => by_symbol(*x),
-            (other, value) => {
-                let message = format!("the derivative of {} by {}", value.shape(), other.shape());
-                Err(Error::unsupported(format!("{message} is not evaluated yet"), span))
-            }
-        }
-    }
-
     /// The n-th derivative with respect to time.
     pub(super) fn time_derivative(&mut self, value: &Value, n: u32) -> Value {
         let mut value = value.clone();
@@ -438,9 +399,14 @@ fn several(variable: &Node) -> Option<&[Node]> {
 
 fn variable_and_order(node: &Node) -> (Node, usize) {
     match &node.kind {
-        Kind::Scripts { base, primes: 0, sub: None, sup: Some(sup) } => match small_integer(sup) {
-            Some(n) => (base.as_ref().clone(), n),
-            None => (node.clone(), 1),
+        Kind::Scripts { base, primes, sub, sup: Some(sup) } => match (small_integer(sup), *primes, sub) {
+            (Some(n), 0, None) => (base.as_ref().clone(), n),
+            // Twice by x' or x_1.
+            (Some(n), ..) => {
+                let kind = Kind::Scripts { base: base.clone(), primes: *primes, sub: sub.clone(), sup: None };
+                (Node::new(kind, node.span.clone()), n)
+            }
+            (None, ..) => (node.clone(), 1),
         },
         _ => (node.clone(), 1),
     }

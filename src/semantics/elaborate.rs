@@ -77,7 +77,7 @@ impl<'w> Elaborator<'w> {
             Kind::Juxt(_) | Kind::Product { .. } | Kind::Frac(..) => self.product(node),
             Kind::Sum(terms) => self.terms(terms),
             Kind::Sqrt { index, body } => self.root(index.as_deref(), body, &node.span),
-            Kind::Group { open: Delim::Angle, .. } if self.is_declared(node) => self.atom(node),
+            Kind::Group { open: Delim::Angle | Delim::Paren, .. } if self.is_declared(node) => self.atom(node),
             Kind::Group { open, close, body } => self.group(*open, *close, body, &node.span),
             Kind::List(items) => self.tuple(items),
             Kind::Matrix { env: MatrixEnv::Cases, rows } => self.case(rows, node),
@@ -324,6 +324,11 @@ impl<'w> Elaborator<'w> {
             let plain = self.value(&Node::new(kind, base.span.start..sub.map_or(base.span.end, |s| s.span.end)))?;
             return self.with_power(plain, sup, &node.span);
         }
+        if let (0, Some(sub), Kind::Group { .. }) = (primes, sub, &base.kind)
+            && let Some(there) = self.bracket_at(base, sub)?
+        {
+            return Ok(there);
+        }
         if let (0, Some(sub)) = (primes, sub)
             && let Some((basis, axis)) = self.scope.axis(&spelling(sub)).map(|(b, k)| (b.name.clone(), k))
             && (matches!(base.kind, Kind::Group { .. }) || self.is_declared(base))
@@ -336,6 +341,9 @@ impl<'w> Elaborator<'w> {
         {
             let inner = self.value(base)?;
             return Ok(self.started(&inner));
+        }
+        if let Some(delta) = self.kronecker(base, primes, sub)? {
+            return Ok(delta);
         }
         Err(self.not_declared(node))
     }
@@ -361,8 +369,13 @@ impl<'w> Elaborator<'w> {
             return Some((entry, values.into_inner()));
         }
         // Numbers as indices: m_1 of the family m_i; or what indices give, K_{n-2p}.
-        let numbered = numbered_pattern(node, &|letter| self.index_value(letter))?;
-        Some((self.scope.get(&numbered.0)?, numbered.1))
+        let (family, indices) = numbered_pattern(node, &|letter| self.index_value(letter))?;
+        if let Some(entry) = self.scope.get(&family) {
+            return Some((entry, indices));
+        }
+        // M_j where M_1 and M_2 are declared each by itself.
+        let entry = self.scope.get(&instance(&family, &indices))?;
+        Some((entry, entry.hidden.iter().filter_map(|letter| self.index_value(letter)).collect()))
     }
 
     /// The value that an index letter has here.
@@ -372,8 +385,8 @@ impl<'w> Elaborator<'w> {
 
     /// The value of a declared symbol, or `None` where the node is no declared name.
     fn declared(&mut self, node: &Node) -> Result<Option<Typed>> {
-        if let Some(argument) = self.argument(node) {
-            return Ok(Some(argument));
+        if let Some(bound) = self.argument(node).or_else(|| self.running(node)) {
+            return Ok(Some(bound));
         }
         let Some((entry, indices)) = self.entry(node) else { return Ok(None) };
         let entry = entry.clone();
@@ -420,6 +433,17 @@ impl<'w> Elaborator<'w> {
             }
         };
         Ok(Some(Typed::new(value, shown_name(node))))
+    }
+
+    /// The value of the letter that a sum runs through, whatever else it may be outside; but where a declared formula is
+    /// written out, its letters are those of the declaration.
+    fn running(&mut self, node: &Node) -> Option<Typed> {
+        let Kind::Symbol(letter) = &node.kind else { return None };
+        if self.aliases.get() > 0 && self.scope.get(letter).is_some() {
+            return None;
+        }
+        let value = self.index_value(letter)?;
+        Some(Typed::new(Value::Scalar(self.world.graph.int(value)), letter.clone()))
     }
 
     /// What a name stands for, which may be a name that stands for something.

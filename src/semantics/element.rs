@@ -19,8 +19,7 @@ impl Elaborator<'_> {
             if !matches!(&pair[0].kind, Kind::Symbol(d) if d == "d") {
                 continue;
             }
-            let letters = self.scope.get(&name).map_or(&[][..], |entry| entry.hidden.as_slice());
-            found.extend(letters.iter().filter(|l| self.index_value(l).is_none()).cloned());
+            found.extend(self.scope.get(&name).into_iter().flat_map(|entry| entry.hidden.iter().cloned()));
         }
         // dM_1 dM_2 / Δ
         for node in integrand {
@@ -97,6 +96,8 @@ mod tests {
         assert!(same(SYMBOLS, r"\iint \vec{x}_1 \cdot \vec{x}_2 dM_1 dM_2", pairs));
         assert!(same(SYMBOLS, r"\int \vec{x}_1 dM_1 \cdot \int \vec{x}_2 dM_2", pairs));
         assert!(same(SYMBOLS, r"\int \frac{dM_1 dM_2}{a}", r"\frac{1}{a} \int dM_1 \int dM_2"));
+        // The sum of a sum: each has particles of its own.
+        assert!(same(SYMBOLS, r"\int \vec{x}_1 \cdot (\int \vec{x}_1 dM_1) dM_1", r"(\sum_i m_i \vec{p}_i)^2"));
         assert!(!same(SYMBOLS, r"\int \vec{x}_1^2 dM_1", r"\int \vec{x}_1 dM_1 \cdot \int \vec{x}_1 dM_1"));
     }
 

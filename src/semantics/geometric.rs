@@ -1,4 +1,5 @@
-//! Relations between directions: proportional, parallel, perpendicular, as equations between components.
+//! Relations between directions: proportional, parallel, perpendicular, as equations between components; and between
+//! numbers that change in proportion along the motion.
 
 use crate::expr::Expr;
 use crate::latex::ast::{Rel, Span};
@@ -13,10 +14,16 @@ pub fn is_geometric(rel: Rel) -> bool {
 }
 
 /// The equation that a relation between directions states: for a ∝ b and a ∥ b all aᵢbⱼ = aⱼbᵢ, for a ⊥ b that a·b = 0.
+/// For numbers a ∝ b that depend on time, that a/b is constant.
 ///
 /// # Errors
-/// Where the sides have not the same number of components, or one only.
+/// Where the sides have not the same number of components, or one only that is no number in proportion.
 pub(super) fn as_equation(world: &mut World, rel: Rel, a: &Value, b: &Value, span: &Span) -> Result<(Value, Value)> {
+    if let (Rel::Propto, Value::Scalar(a), Value::Scalar(b)) = (rel, a, b)
+        && let Some(rate) = rate_of_ratio(world, *a, *b)
+    {
+        return Ok((Value::Scalar(rate), Value::Scalar(world.graph.int(0))));
+    }
     let (x, y) = (a.components(), b.components());
     if x.len() != y.len() || x.len() < 2 {
         let message = format!("{} and {} have no directions to compare", a.shape(), b.shape());
@@ -35,6 +42,29 @@ pub(super) fn as_equation(world: &mut World, rel: Rel, a: &Value, b: &Value, spa
         }
     }
     Ok((Value::Tuple(left), Value::Tuple(right)))
+}
+
+/// The rate of a/b for numbers that both depend on time. For integrals along the motion, which both begin at zero, that
+/// of the ratio of what is integrated, which is the same one if it is constant. None for what is not of either kind.
+fn rate_of_ratio(world: &mut World, a: Expr, b: Expr) -> Option<Expr> {
+    let along = world.remembers(a) || world.remembers(b);
+    let (mut above, mut below) = (a, b);
+    if along {
+        let begin = [world.start(a), world.start(b)];
+        (above, below) = (world.rate(a), world.rate(b));
+        let integrals = [above, below].iter().all(|e| !world.remembers(*e));
+        if !begin.iter().all(|e| world.graph.is_zero(*e)) || !integrals {
+            return None;
+        }
+    }
+    let moves = |world: &World, e: Expr| world.graph.symbols(&[e]).iter().any(|s| world.graph.info(*s).of_t);
+    let t = world.graph.find("t");
+    let timed = t.is_some_and(|t| [a, b].iter().all(|e| world.graph.symbols(&[*e]).contains(&t)));
+    if !along && !timed && !(moves(world, a) && moves(world, b)) {
+        return None;
+    }
+    let ratio = world.graph.div(above, below);
+    Some(world.graph.time_derivative(ratio, t))
 }
 
 #[cfg(test)]
@@ -63,5 +93,22 @@ mod tests {
         let mut world = World::new();
         let one = Value::Scalar(world.graph.int(1));
         assert!(as_equation(&mut world, Rel::Parallel, &one, &one, &(0..0)).is_err());
+    }
+
+    #[test]
+    fn numbers_in_proportion_have_a_constant_ratio() {
+        use super::super::testing::{scope, value};
+        let symbols = scope("[symbols]\n'x, y' = { of = 't', range = [1, 2] }\n'c' = { range = [1, 2] }");
+        let mut world = World::new();
+        let mut equation = |a: &str, b: &str| {
+            let [a, b] = [a, b].map(|latex| value(&mut world, &symbols, latex).unwrap());
+            as_equation(&mut world, Rel::Propto, &a, &b, &(0..0)).map(|(left, _)| match left {
+                Value::Scalar(e) => world.graph.display(e),
+                other => format!("{other:?}"),
+            })
+        };
+        assert_eq!(equation(r"\int_0^t x dt", r"\int_0^t dt").unwrap(), r"\dot{x}");
+        assert!(equation("x", "y").unwrap().contains(r"\dot{y}"));
+        assert!(equation("x", "c").is_err() && equation(r"1 + \int_0^t x dt", r"\int_0^t dt").is_err());
     }
 }

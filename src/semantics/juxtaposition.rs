@@ -62,16 +62,31 @@ fn span_of(items: &[Item]) -> Span {
 }
 
 /// The functions of a scalar that are evaluated.
-const FUNCTIONS: [&str; 15] = [
-    "sin", "cos", "tan", "cot", "sec", "csc", "arcsin", "arccos", "arctan", "sinh", "cosh", "tanh", "exp", "ln", "log",
+const FUNCTIONS: [&str; 18] = [
+    "sin", "cos", "tan", "cot", "sec", "csc", "arcsin", "arccos", "arctan", "sinh", "cosh", "tanh", "coth", "sech",
+    "csch", "exp", "ln", "log",
 ];
+
+/// The name of a function of a scalar, also where it is printed as words: `\text{sech}u`. A second has the name `sec`.
+fn function_name(head: &Node) -> Option<&str> {
+    match &head.kind {
+        Kind::Function(name) => Some(name),
+        Kind::Text(name) => Some(name.trim()).filter(|name| *name != "sec" && FUNCTIONS.contains(name)),
+        _ => None,
+    }
+}
+
+/// Whether a factor is nothing but words.
+fn is_words(node: &Node) -> bool {
+    matches!(node.kind, Kind::Text(_)) && !is_name(node) && function_name(node).is_none()
+}
 
 impl Elaborator<'_> {
     /// The value of a product.
     pub(super) fn product(&mut self, node: &Node) -> Result<Typed> {
         let mut items = Vec::new();
         flatten(node, &mut items);
-        items.retain(|item| !matches!(item, Item::Factor(n) if matches!(n.kind, Kind::Text(_)) && !is_name(n)));
+        items.retain(|item| !matches!(item, Item::Factor(n) if is_words(n)));
         self.items(&items)
     }
 
@@ -179,12 +194,14 @@ impl Elaborator<'_> {
             return Ok(found);
         }
         let (head, sup) = head_and_power(node);
+        if let Some(name) = function_name(head) {
+            return self.function(name, sup, node, &items[1..]).map(|(t, n)| (t, n + 1));
+        }
         match &head.kind {
             _ if complex::is_unit(head) => {
                 let unit = Typed::new(complex::unit(&mut self.world.graph), "i");
                 return self.with_power(unit, sup, &node.span).map(|t| (t, 1));
             }
-            Kind::Function(name) => return self.function(name, sup, node, &items[1..]).map(|(t, n)| (t, n + 1)),
             Kind::BigOp(op) => {
                 let reach = self.reach(head, &items[1..]);
                 return self.big_operator(*op, node, &items[1..=reach]).map(|t| (t, reach + 1));
@@ -377,6 +394,9 @@ impl Elaborator<'_> {
             "sinh" => graph.call(Func::Sinh, x),
             "cosh" => graph.call(Func::Cosh, x),
             "tanh" => graph.call(Func::Tanh, x),
+            "coth" => reciprocal(Func::Tanh, graph),
+            "sech" => reciprocal(Func::Cosh, graph),
+            "csch" => reciprocal(Func::Sinh, graph),
             "exp" => graph.call(Func::Exp, x),
             "ln" | "log" => graph.call(Func::Ln, x),
             _ => {

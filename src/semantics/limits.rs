@@ -223,6 +223,8 @@ mod tests {
         assert!(same(SYMBOLS, r"\sum_{p,q=0, p < q}^2 a^p b^q", r"b + b^2 + a b^2"));
         assert!(same(SYMBOLS, r"\sum_{p \neq 2} a^p", r"1 + a + a^3"));
         assert!(same(SYMBOLS, r"\sum_{p=0, p = \text{odd}}^3 a^p", r"a + a^3"));
+        // The letter of a sum is its own, declared or not.
+        assert!(same(SYMBOLS, r"\sum_{s=1}^3 s a^s + \sum_{a=1}^2 a b", r"a + 2a^2 + 3a^3 + 3b"));
     }
 
     #[test]

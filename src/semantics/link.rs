@@ -88,7 +88,13 @@ pub fn understand(world: &mut World, scope: &Scope, clause: &Clause, upper: bool
             }
         };
         let (mut left, mut right) = meet(&mut elaborator, lhs.value, rhs, clause)?;
-        if is_geometric(clause.rel) {
+        // Integrals along the motion are in proportion along it.
+        if let (Rel::Propto, Value::Scalar(a), Value::Scalar(b)) = (clause.rel, &left, &right)
+            && !elaborator.world.remembers(*a)
+            && !elaborator.world.remembers(*b)
+        {
+            link.rel = Rel::Propto;
+        } else if is_geometric(clause.rel) {
             (left, right) = as_equation(elaborator.world, clause.rel, &left, &right, &clause.lhs.span)?;
         }
         link.instances.push(Instance { tag: (!tag.is_empty()).then_some(tag), lhs: left, rhs: right });

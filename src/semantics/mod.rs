@@ -10,6 +10,7 @@
 //! first is the author's and the second is the annotator's.
 
 mod apply;
+mod at;
 mod calculus;
 mod complex;
 mod counting;
@@ -19,7 +20,9 @@ mod element;
 mod elliptic;
 mod error;
 mod geometric;
+mod index_range;
 mod juxtaposition;
+mod kronecker;
 mod legendre;
 mod limits;
 mod link;
@@ -27,6 +30,7 @@ mod mean;
 mod motion;
 mod name;
 mod notes;
+mod partial;
 mod poisson;
 mod power;
 mod quaternion;
@@ -34,6 +38,7 @@ mod ratio;
 mod remainder;
 mod scope;
 mod sexagesimal;
+mod signs;
 mod statement;
 mod terms;
 #[cfg(test)]
@@ -45,10 +50,12 @@ mod world;
 pub use elaborate::{Elaborator, Typed};
 pub use error::{Error, ErrorKind};
 pub use geometric::is_geometric;
+pub use index_range::without_index_ranges;
 pub use link::{Instance, TypedLink, every_value, understand};
 pub use name::spelling;
 pub use remainder::{is_remainder, without_remainder};
 pub use scope::{Basis, Entry, EntryKind, Scope, pattern_of};
+pub use signs::independent_signs;
 pub use statement::{Clause, Side, Statement, begins_with_relation, has_branches, mentions, relation_latex, statement};
 pub use terms::{PrintedTerm, printed_terms};
 pub use value::{Matrix, Value};

@@ -1,42 +1,103 @@
-//! Integrals along the motion and values at its start: `\int_0^t F\,dt`, `\int \vec{f} \cdot d\vec{r}`, `(X)_0`,
-//! `X|_0^t`, and values where a symbol has another, `X|_{x = y}`.
+//! Integrals along the motion and values at its start: `\int_0^t F\,dt`, `\int \vec{f} \cdot d\vec{r}`, `(X)_0`.
 //!
 //! What holds for all times is what holds at the start and has the same rate on both sides ever after. An integral is a
 //! symbol of its own that depends on time, of which the world knows the rate, and that is zero at the start; a value at
 //! the start is a constant, of which the world knows what it is the value of.
+//!
+//! An integral up to a symbol, `\int_a^x f\,dx`, is one along the motion in which x moves and the motion starts at
+//! x = a; its partial derivatives by x and by other symbols in f and a are those of Leibniz's rule.
 
 use std::collections::HashMap;
 
-use crate::expr::{self, Expr, SymId};
-use crate::latex::ast::{Kind, Link, Node, Rel, Span};
+use crate::expr::{Expr, SymId};
+use crate::latex::ast::{Kind, Node, Span};
 
 use super::elaborate::{Elaborator, Typed};
 use super::error::{Error, Result};
 use super::juxtaposition::Item;
-use super::value;
+use super::value::Value;
 use super::world::{Facts, World};
 
 /// What is known of the integrals and starting values of a [`World`].
 #[derive(Default)]
 pub(super) struct History {
-    /// The symbol of each integral and its rate.
-    integrals: Vec<(SymId, Expr)>,
+    /// The integrals.
+    integrals: Vec<Integral>,
     /// The constant that is the value of something at the start.
     starts: Vec<(SymId, Expr)>,
     /// The time of the start; 0 where none is printed.
     begin: Option<Expr>,
 }
 
+/// An integral along the motion.
+#[derive(Clone, Copy)]
+struct Integral {
+    /// The symbol that it is.
+    symbol: SymId,
+    /// What is integrated over time.
+    rate: Expr,
+    /// Its upper limit, where that is a symbol.
+    limits: Option<Limits>,
+}
+
+/// The limits of an integral up to a symbol.
+#[derive(Clone, Copy, PartialEq)]
+struct Limits {
+    /// The upper limit, which is also the variable.
+    variable: SymId,
+    /// The lower limit.
+    from: Expr,
+    /// What is integrated over the variable.
+    integrand: Expr,
+}
+
 impl World {
     /// The integral of a rate from the start of the motion on.
-    fn integral(&mut self, rate: Expr) -> Expr {
-        if let Some((symbol, _)) = self.history.integrals.iter().find(|(_, r)| *r == rate) {
-            return self.graph.sym(*symbol);
+    fn integral(&mut self, rate: Expr, limits: Option<Limits>) -> Expr {
+        let known = |i: &&Integral| i.rate == rate && i.limits == limits;
+        if let Some(found) = self.history.integrals.iter().find(known) {
+            return self.graph.sym(found.symbol);
         }
         let name = format!("\\int_{{({})}}", self.history.integrals.len() + 1);
         let symbol = self.symbol(&name, true, || Facts { tex: name.clone(), ..Facts::default() });
-        self.history.integrals.push((symbol, rate));
+        self.history.integrals.push(Integral { symbol, rate, limits });
         self.graph.sym(symbol)
+    }
+
+    /// The partial derivative of an expression by a symbol; none where it holds an integral along the motion that
+    /// depends on the symbol and has no limit to say how.
+    pub(super) fn partial(&mut self, e: Expr, x: SymId) -> Option<Expr> {
+        let mut total = self.graph.diff(e, x);
+        let symbols = self.graph.symbols(&[e]);
+        for integral in self.history.integrals.clone().into_iter().filter(|i| symbols.contains(&i.symbol)) {
+            let inner = match integral.limits {
+                Some(limits) if limits.variable == x => limits.integrand,
+                Some(limits) => self.leibniz(&limits, x),
+                None if self.graph.symbols(&[integral.rate]).contains(&x) => return None,
+                None => continue,
+            };
+            let outer = self.graph.diff(e, integral.symbol);
+            let term = self.graph.mul(outer, inner);
+            total = self.graph.add(total, term);
+        }
+        Some(total)
+    }
+
+    /// The derivative of an integral by a symbol other than its upper limit: ∫ ∂f/∂x - f(a) ∂a/∂x.
+    fn leibniz(&mut self, limits: &Limits, x: SymId) -> Expr {
+        let Limits { variable, from, integrand } = *limits;
+        let slope = self.graph.diff(integrand, x);
+        let first = self.graph.substitute(integrand, &HashMap::from([(variable, from)]));
+        let shift = self.graph.diff(from, x);
+        let boundary = self.graph.mul(first, shift);
+        let speed = self.graph.derivative_symbol(variable);
+        let speed = self.graph.sym(speed);
+        let rate = self.graph.mul(slope, speed);
+        let within = match self.graph.is_zero(slope) {
+            true => slope,
+            false => self.integral(rate, Some(Limits { integrand: slope, ..*limits })),
+        };
+        self.graph.sub(within, boundary)
     }
 
     /// The value of something at the start of the motion.
@@ -60,7 +121,7 @@ impl World {
     /// Whether an expression holds an integral along the motion or a value at its start.
     pub fn remembers(&self, e: Expr) -> bool {
         let known = |s: &SymId| {
-            self.history.integrals.iter().any(|(i, _)| i == s) || self.history.starts.iter().any(|(i, _)| i == s)
+            self.history.integrals.iter().any(|i| i.symbol == *s) || self.history.starts.iter().any(|(i, _)| i == s)
         };
         self.graph.symbols(&[e]).iter().any(known)
     }
@@ -68,9 +129,9 @@ impl World {
     /// What a symbol is made of, if it is an integral along the motion or a value at its start: what it integrates (then
     /// `true`), or what it is the value of.
     pub fn remembered(&self, symbol: SymId) -> Option<(Expr, bool)> {
-        let of = |all: &[(SymId, Expr)]| all.iter().find(|(s, _)| *s == symbol).map(|(_, e)| *e);
-        let integral = of(&self.history.integrals).map(|rate| (rate, true));
-        integral.or_else(|| of(&self.history.starts).map(|e| (e, false)))
+        let integral = self.history.integrals.iter().find(|i| i.symbol == symbol).map(|i| (i.rate, true));
+        let start = || self.history.starts.iter().find(|(s, _)| *s == symbol).map(|(_, e)| (*e, false));
+        integral.or_else(start)
     }
 
     /// The time derivative of an expression, in which an integral's is what it integrates.
@@ -79,7 +140,7 @@ impl World {
         let rate = self.graph.time_derivative(e, t);
         let integrals = self.history.integrals.clone();
         let map: HashMap<SymId, Expr> =
-            integrals.into_iter().map(|(s, rate)| (self.graph.derivative_symbol(s), rate)).collect();
+            integrals.into_iter().map(|i| (self.graph.derivative_symbol(i.symbol), i.rate)).collect();
         self.graph.substitute(rate, &map)
     }
 
@@ -88,21 +149,36 @@ impl World {
         let integrals = self.history.integrals.clone();
         integrals
             .into_iter()
-            .map(|(symbol, rate)| {
-                let derivative = self.graph.derivative_symbol(symbol);
-                (self.graph.sym(derivative), rate)
+            .map(|i| {
+                let derivative = self.graph.derivative_symbol(i.symbol);
+                (self.graph.sym(derivative), i.rate)
             })
             .collect()
     }
 
-    /// An expression at the start of the motion: integrals are zero, and a value at the start is the value itself.
+    /// An expression at the start of the motion: integrals are zero, their upper limits are the lower ones, and a value
+    /// at the start is the value itself.
     pub fn start(&mut self, e: Expr) -> Expr {
         let zero = self.graph.int(0);
         let begin = self.history.begin.unwrap_or(zero);
-        let mut map: HashMap<SymId, Expr> = self.history.starts.iter().copied().collect();
-        map.extend(self.history.integrals.iter().map(|(s, _)| (*s, zero)));
+        let values: HashMap<SymId, Expr> = self.history.starts.iter().copied().collect();
+        let e = self.graph.substitute(e, &values);
+        let integrals = &self.history.integrals;
+        let mut map: HashMap<SymId, Expr> = integrals.iter().map(|i| (i.symbol, zero)).collect();
+        map.extend(integrals.iter().filter_map(|i| i.limits).map(|l| (l.variable, l.from)));
         map.extend(self.graph.find("t").map(|t| (t, begin)));
         self.graph.substitute(e, &map)
+    }
+
+    /// The limits of an integral whose value is `rate` times dt, up to a symbol that moves. None where something else
+    /// than this symbol is the variable.
+    fn limits(&mut self, rate: Expr, variable: SymId, from: Expr) -> Option<Limits> {
+        let speed = self.graph.derivative_symbol(variable);
+        let integrand = self.graph.diff(rate, speed);
+        let zero = self.graph.int(0);
+        let rest = self.graph.substitute(rate, &HashMap::from([(speed, zero)]));
+        let alone = self.graph.is_zero(rest) && !self.graph.symbols(&[integrand]).contains(&speed);
+        alone.then_some(Limits { variable, from, integrand })
     }
 }
 
@@ -115,6 +191,7 @@ impl Elaborator<'_> {
         rest: &[Item],
         span: &Span,
     ) -> Result<Typed> {
+        let limits = self.moving_limit(from, to)?;
         let from = match to {
             Some(Node { kind: Kind::Symbol(s), .. }) if s != "t" => self.beginning(to, span)?,
             Some(Node { kind: Kind::Symbol(_), .. }) | None => from.cloned(),
@@ -130,14 +207,42 @@ impl Elaborator<'_> {
         let value = inner.value.map(&mut |e| {
             let rate = self.world.graph.diff(e, dt);
             failed |= self.world.graph.symbols(&[rate]).contains(&dt);
-            self.world.integral(rate)
+            let limits = limits.and_then(|(variable, from)| self.world.limits(rate, variable, from));
+            self.world.integral(rate, limits)
         });
+        self.one_start(span)?;
         let zero = self.world.graph.int(0);
         let nothing = inner.value.components().iter().all(|e| self.world.graph.diff(*e, dt) == zero && *e != zero);
         if failed || nothing {
             Err(without_differential(span))
         } else {
             Ok(Typed::new(value, format!("∫({})", inner.text)))
+        }
+    }
+
+    /// The upper limit of an integral and the lower one, where the upper is a symbol that moves.
+    fn moving_limit(&mut self, from: Option<&Node>, to: Option<&Node>) -> Result<Option<(SymId, Expr)>> {
+        let (Some(from), Some(to)) = (from, to) else { return Ok(None) };
+        if matches!(&to.kind, Kind::Symbol(s) if s == "t") {
+            return Ok(None);
+        }
+        let end = self.value(to)?.value;
+        let Value::Scalar(end) = end else { return Ok(None) };
+        let crate::expr::Node::Symbol(variable) = *self.world.graph.node(end) else { return Ok(None) };
+        if !self.world.graph.info(variable).of_t {
+            return Ok(None);
+        }
+        let begin = self.value(from)?;
+        Ok(Some((variable, self.scalar(&begin, &from.span)?)))
+    }
+
+    /// Integrals over one variable begin at one value of it, so that the motion has one start.
+    fn one_start(&self, span: &Span) -> Result<()> {
+        let limits: Vec<Limits> = self.world.history.integrals.iter().filter_map(|i| i.limits).collect();
+        let differ = |a: &Limits| limits.iter().any(|b| a.variable == b.variable && a.from != b.from);
+        match limits.iter().any(differ) {
+            true => Err(Error::unsupported("integrals over one variable with several lower limits", span)),
+            false => Ok(()),
         }
     }
 
@@ -158,48 +263,6 @@ impl Elaborator<'_> {
     /// The value of something at the start of the motion, `(X)_0`.
     pub(super) fn started(&mut self, inner: &Typed) -> Typed {
         Typed::new(inner.value.map(&mut |e| self.world.at_start(e)), format!("{}_0", inner.text))
-    }
-
-    /// `X|_{x = y}`: what X is where x has the value y. Rates of x are not put in: they are those at that moment.
-    fn with_value(&mut self, body: &Node, name: &Node, value: &Node, span: &Span) -> Result<Typed> {
-        let (inner, name, value) = (self.value(body)?, self.value(name)?, self.value(value)?);
-        let (names, values) = (name.value.components(), value.value.components());
-        let symbol = |e: &Expr| match *self.world.graph.node(*e) {
-            expr::Node::Symbol(s) => Some(s),
-            _ => None,
-        };
-        let symbols: Option<Vec<SymId>> = names.iter().map(symbol).collect();
-        let Some(symbols) = symbols.filter(|symbols| symbols.len() == values.len()) else {
-            return Err(Error::unsupported("a value is put in for a symbol of its own, of the same shape", span));
-        };
-        let map = symbols.into_iter().zip(values).collect();
-        let put_in = inner.value.map(&mut |e| self.world.graph.substitute(e, &map));
-        Ok(Typed::new(put_in, format!("({} at {} = {})", inner.text, name.text, value.text)))
-    }
-
-    /// `X|_0` and `X|_0^t`.
-    pub(super) fn evaluated_at(&mut self, body: &Node, at: &Node, span: &Span) -> Result<Typed> {
-        let limits = match &at.kind {
-            Kind::Scripts { base, primes: 0, sub: Some(sub), sup } if base.kind == Kind::Empty => (sub, sup),
-            Kind::Chain { first: Some(name), links } => match links.as_slice() {
-                [Link { rel: Rel::Eq, rhs, .. }] => return self.with_value(body, name, rhs, span),
-                _ => return Err(Error::unsupported("a value at this condition is not evaluated yet", span)),
-            },
-            _ => return Err(Error::unsupported("a value at a condition is not evaluated yet", span)),
-        };
-        if !is_start(limits.0) {
-            return Err(Error::unsupported("only a value at the start, |_0, is evaluated yet", span));
-        }
-        let inner = self.value(body)?;
-        let start = self.started(&inner);
-        match limits.1.as_deref() {
-            None => Ok(start),
-            Some(Node { kind: Kind::Symbol(s), .. }) if s == "t" => {
-                let value = value::add(&mut self.world.graph, &inner.value, &start.value, true, span)?;
-                Ok(Typed::new(value, format!("({} - {})", inner.text, start.text)))
-            }
-            Some(_) => Err(Error::unsupported("only a difference from 0 to t is evaluated yet", span)),
-        }
     }
 }
 

@@ -1,4 +1,4 @@
-//! What an author notes at the braces of a formula.
+//! What an author notes beside a formula: relations at braces.
 
 use crate::latex::ast::{Kind, Link, Node, Rel};
 

@@ -2,12 +2,11 @@
 //! {F, G} = Σ (∂F/∂p ∂G/∂q - ∂F/∂q ∂G/∂p), so that {p, G} = ∂G/∂q and {q, G} = -∂G/∂p as in the equations of motion
 //! dp/dt = ∂F/∂q, dq/dt = -∂F/∂p.
 
-use crate::expr::{Expr, Node as Op, SymId};
+use crate::expr::{Expr, SymId};
 use crate::latex::ast::{Delim, Kind, Node, Span};
 
 use super::elaborate::{Elaborator, Typed};
-use super::error::{Error, Result};
-use super::value::Value;
+use super::error::Result;
 
 impl Elaborator<'_> {
     /// The Poisson bracket that a pair in braces is, where canonical variables are declared.
@@ -25,18 +24,6 @@ impl Elaborator<'_> {
         let value = f.value.map(&mut |e| self.bracket(e, g_value, &pairs));
         Ok(Some(Typed::new(value, format!("{{{}, {}}}", f.text, g.text))))
     }
-
-    fn variable(&mut self, name: &Node, span: &Span) -> Result<SymId> {
-        let typed = self.value(name)?;
-        match typed.value {
-            Value::Scalar(e) => match *self.world.graph.node(e) {
-                Op::Symbol(s) => Ok(s),
-                _ => Err(Error::unsupported(format!("the canonical variable {} is no symbol", typed.text), span)),
-            },
-            _ => Err(Error::unsupported(format!("the canonical variable {} is no number", typed.text), span)),
-        }
-    }
-
     fn bracket(&mut self, f: Expr, g: Expr, pairs: &[(SymId, SymId)]) -> Expr {
         let graph = &mut self.world.graph;
         let mut terms = Vec::new();

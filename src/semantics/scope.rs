@@ -291,6 +291,23 @@ impl Scope {
                     self.collect_names(base, found);
                 }
             }
+            // dM may be a name of its own, that says nothing of M.
+            Kind::Juxt(factors) => {
+                let mut k = 0;
+                while let Some(first) = factors.get(k) {
+                    let pair = factors.get(k + 1).map(|second| format!("{}{}", spelling(first), spelling(second)));
+                    match pair.filter(|pair| self.get(pair).is_some()) {
+                        Some(pair) => {
+                            found.insert(pair);
+                            k += 2;
+                        }
+                        None => {
+                            self.collect_names(first, found);
+                            k += 1;
+                        }
+                    }
+                }
+            }
             _ => node.children().into_iter().for_each(|child| self.collect_names(child, found)),
         }
     }

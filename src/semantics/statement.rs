@@ -42,7 +42,9 @@ impl Clause {
             Side::Node(n) => to_latex(n),
             Side::Constant => "\\text{const.}".to_owned(),
         };
-        format!("{} {} {rhs}", to_latex(&self.lhs), relation_latex(self.rel))
+        let when: Vec<String> = self.when.iter().map(Clause::latex).collect();
+        let when = if when.is_empty() { String::new() } else { format!(" \\quad ({})", when.join(", ")) };
+        format!("{} {} {rhs}{when}", to_latex(&self.lhs), relation_latex(self.rel))
     }
 }
 
@@ -87,7 +89,13 @@ impl Builder {
         }
         match &node.kind {
             Kind::Rows(rows) => rows.iter().try_for_each(|row| self.add(row)),
-            Kind::List(items) => items.iter().try_for_each(|item| self.add(item)),
+            Kind::List(items) => items.iter().enumerate().try_for_each(|(k, item)| {
+                self.add(item)?;
+                match ratio::shared_constant(&items[k..]) {
+                    Some(link) => self.link(link),
+                    None => Ok(()),
+                }
+            }),
             Kind::Marked(_, body) => self.add(body),
             Kind::Annotated { body, .. } if holds_relation(body) => self.add(body),
             Kind::Matrix { env: MatrixEnv::Cases | MatrixEnv::Array, rows }
@@ -145,8 +153,8 @@ impl Builder {
     fn braces(&mut self, root: &Node) {
         for (lhs, link) in at_braces(root) {
             let rhs = if is_constant(&link.rhs) { Side::Constant } else { Side::Node(link.rhs) };
-            let part = self.part;
-            self.out.clauses.push(Clause { lhs, rel: link.rel, rhs, part, continued: false, when: Vec::new() });
+            let (part, continued, when) = (self.part, false, Vec::new());
+            self.out.clauses.push(Clause { lhs, rel: link.rel, rhs, part, continued, when });
         }
     }
 
@@ -206,7 +214,7 @@ impl Builder {
         // A row that the next one continues.
         self.out.bare.retain(|bare| bare.span != lhs.span);
         let mut constant = is_constant(&link.rhs);
-        if let Some(difference) = without_constant(&lhs, &link.rhs) {
+        if let Some(difference) = ratio::without_constant(&lhs, &link.rhs) {
             (lhs, constant) = (difference, true);
         }
         let rhs = if constant { Side::Constant } else { Side::Node(link.rhs.clone()) };
@@ -288,7 +296,7 @@ fn compares(rel: Rel) -> bool {
 }
 
 /// Whether a node is or holds a relation, not counting those within ordinary brackets.
-fn holds_relation(node: &Node) -> bool {
+pub(super) fn holds_relation(node: &Node) -> bool {
     match &node.kind {
         Kind::Chain { .. } => true,
         Kind::Rows(nodes) | Kind::List(nodes) | Kind::Juxt(nodes) => nodes.iter().any(holds_relation),
@@ -348,7 +356,7 @@ fn begins(row: &[Node]) -> bool {
 }
 
 /// Whether a side consists of words only.
-fn is_words(node: &Node) -> bool {
+pub(super) fn is_words(node: &Node) -> bool {
     match &node.kind {
         Kind::Text(_) => true,
         Kind::Juxt(factors) => factors.iter().all(is_words),
@@ -368,30 +376,15 @@ fn holds_words(node: &Node) -> bool {
 /// Whether a side is the word const., perhaps with a name given to it in brackets behind.
 pub(super) fn is_constant(node: &Node) -> bool {
     match &node.kind {
-        Kind::Text(text) => text.trim().trim_end_matches('.').eq_ignore_ascii_case("const") || text.trim() == "一定",
+        Kind::Text(text) => {
+            let first = text.split_whitespace().next().unwrap_or_default();
+            first.trim_end_matches('.').eq_ignore_ascii_case("const") || first == "一定"
+        }
         Kind::Function(name) => name == "const",
         Kind::Styled(_, body) => is_constant(body),
         Kind::Juxt(factors) => factors.first().is_some_and(is_constant),
         _ => false,
     }
-}
-
-/// The left side minus all that is printed beside the word const. on the right, `n t + \text{const.}`.
-fn without_constant(lhs: &Node, rhs: &Node) -> Option<Node> {
-    let Kind::Sum(terms) = &rhs.kind else { return None };
-    let (constants, rest): (Vec<&Term>, Vec<&Term>) = terms.iter().partition(|t| is_constant(&t.node));
-    let opposite = |sign| match sign {
-        Sign::Plus => Sign::Minus,
-        Sign::Minus => Sign::Plus,
-        Sign::PlusMinus => Sign::MinusPlus,
-        Sign::MinusPlus => Sign::PlusMinus,
-    };
-    if constants.len() != 1 || rest.is_empty() {
-        return None;
-    }
-    let moved = rest.into_iter().map(|t| Term { sign: opposite(t.sign), ..t.clone() });
-    let first = Term { sign: Sign::Plus, sign_span: None, node: lhs.clone() };
-    Some(Node::new(Kind::Sum(std::iter::once(first).chain(moved).collect()), rhs.span.clone()))
 }
 
 /// Whether a formula has branches by ±.
