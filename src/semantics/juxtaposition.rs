@@ -434,6 +434,11 @@ impl Elaborator<'_> {
         if rest.is_empty() {
             return Err(Error::unsupported("this operator has nothing to act on", &node.span));
         }
+        if let (BigOp::Sum, None) = (op, sup)
+            && let Some(sum) = self.cyclic_sum(sub, rest, &node.span)?
+        {
+            return Ok(sum);
+        }
         match op {
             BigOp::Sum | BigOp::Product => {}
             BigOp::Integral | BigOp::DoubleIntegral if !self.particles(&factors_of(rest)).is_empty() => {}
