@@ -22,10 +22,11 @@ use crate::semantics::units::Dimension;
 use crate::semantics::{self, Clause, Scope, Side, Value};
 
 use super::book::{Book, Entry};
-use super::claim::{Claim, Obstacle, Source, Stated};
-use super::judge::Options;
+use super::claim::{Claim, Obstacle, Source};
+use super::options::Options;
 use super::random::Random;
 use super::sampling::{Sampler, no_state_text};
+use super::stated::Stated;
 use super::system::State;
 use super::verdict::{LinkJudgement, Strength, Verdict};
 

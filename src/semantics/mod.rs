@@ -19,6 +19,7 @@ mod elaborate;
 mod element;
 mod elliptic;
 mod error;
+mod function;
 mod geometric;
 mod index_range;
 mod juxtaposition;
@@ -40,6 +41,7 @@ mod scope;
 mod sexagesimal;
 mod signs;
 mod statement;
+mod symbol;
 mod terms;
 #[cfg(test)]
 mod testing;
