@@ -160,3 +160,10 @@ fn printed_harmonics_have_their_coefficients() {
         "harmonics = ['\\alpha']\nwhere = ['\\sin\\alpha = \\sin\\beta']\nsolve = ['\\beta']",
     );
 }
+
+#[test]
+fn a_table_states_nothing() {
+    let table = r"\begin{array}{cc} \text{small} & \text{large} \\ \sim 1 & \frac{a}{b} \end{array}";
+    assert_eq!(one(table, "kind = \"statement\"").verdict, Verdict::Statement);
+    assert_eq!(one(table, "").verdict, Verdict::Undecided);
+}

@@ -9,6 +9,9 @@ use super::juxtaposition::Item;
 use super::link::{MOST_ASSIGNMENTS, assignments, too_many};
 use super::name::spelling;
 
+/// The letters that a range is printed for, and its values.
+type Range = (Vec<String>, Vec<i64>);
+
 /// Values of indices.
 type Assignment = Vec<(String, i64)>;
 
@@ -46,12 +49,7 @@ impl Elaborator<'_> {
 
     /// The letters that each range is printed for, with its values: `\epsilon, \delta = \pm 1` gives one to both. `None`
     /// where no range is printed.
-    fn ranges(
-        &mut self,
-        parts: &[&Node],
-        sup: Option<&Node>,
-        span: &Span,
-    ) -> Result<Option<Vec<(Vec<String>, Vec<i64>)>>> {
+    fn ranges(&mut self, parts: &[&Node], sup: Option<&Node>, span: &Span) -> Result<Option<Vec<Range>>> {
         let mut ranges = Vec::new();
         let mut letters = Vec::new();
         for part in parts {

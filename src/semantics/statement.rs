@@ -98,6 +98,10 @@ impl Builder {
             }),
             Kind::Marked(_, body) => self.add(body),
             Kind::Annotated { body, .. } if holds_relation(body) => self.add(body),
+            Kind::Matrix { env: MatrixEnv::Array, rows } if is_table(rows) => {
+                self.begin(node);
+                Ok(())
+            }
             Kind::Matrix { env: MatrixEnv::Cases | MatrixEnv::Array, rows }
                 if rows.iter().flatten().any(holds_relation) =>
             {
@@ -353,6 +357,11 @@ fn aside_of(factor: &Node) -> Option<&Node> {
 /// Whether a row of an array begins with a relation.
 fn begins(row: &[Node]) -> bool {
     row.first().is_some_and(begins_with_relation)
+}
+
+/// Whether an array is a table with words at the heads of its columns, of which a cell such as `\sim 1` states nothing.
+fn is_table(rows: &[Vec<Node>]) -> bool {
+    rows.len() > 1 && rows.first().is_some_and(|heads| heads.len() > 1 && heads.iter().all(is_words))
 }
 
 /// Whether a side consists of words only.
