@@ -14,6 +14,7 @@ mod at;
 mod calculus;
 mod complex;
 mod counting;
+mod cyclic;
 mod elaborate;
 mod element;
 mod elliptic;
