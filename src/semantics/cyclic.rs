@@ -98,7 +98,8 @@ mod tests {
     use super::super::World;
     use super::super::testing::{scope, value};
 
-    const DECLARED: &str = "cyclic = ['a, b, c', 'x_1, x_2, x_3']\n[symbols]\n'a, b, c, d, x_1, x_2, x_3' = { range = [0.5, 2.0] }\n";
+    const DECLARED: &str =
+        "cyclic = ['a, b, c', 'x_1, x_2, x_3']\n[symbols]\n'a, b, c, d, x_1, x_2, x_3' = { range = [0.5, 2.0] }\n";
 
     fn same(sum: &str, written: &str) -> bool {
         let (mut world, scope) = (World::new(), scope(DECLARED));
@@ -108,7 +109,8 @@ mod tests {
         points.iter().all(|point| {
             let names = ["a", "b", "c", "d", "x_{1}", "x_{2}", "x_{3}"];
             let values = names.iter().zip(point).filter_map(|(name, v)| Some((world.graph.find(name)?, *v)));
-            let map = values.collect::<Vec<_>>().into_iter().map(|(s, v)| (s, world.graph.int(v))).collect();
+            let values = values.collect::<Vec<_>>().into_iter();
+            let map: std::collections::HashMap<_, _> = values.map(|(s, v)| (s, world.graph.int(v))).collect();
             let at = world.graph.substitute(e, &map);
             world.graph.is_zero(at)
         })
