@@ -349,7 +349,7 @@ fn link_verdict(source: &Source, clause: &Clause, scope: &Scope, known: &[Clause
     match source.claim(&mapped, scope, known) {
         Err(obstacle) => obstructed(judgement, source, clause, &obstacle),
         Ok(claim) => match printed.filter(|p| !p.is_arithmetic()) {
-            Some(printed) => value::judge(judgement, source, clause, &printed, claim, options),
+            Some(printed) => value::judge(judgement, source, &printed, claim, options),
             None => evaluate(judgement, claim, clause.rel, source, options),
         },
     }

@@ -109,8 +109,8 @@ mod tests {
         points.iter().all(|point| {
             let names = ["a", "b", "c", "d", "x_{1}", "x_{2}", "x_{3}"];
             let values = names.iter().zip(point).filter_map(|(name, v)| Some((world.graph.find(name)?, *v)));
-            let map: std::collections::HashMap<_, _> =
-                values.collect::<Vec<_>>().into_iter().map(|(s, v)| (s, world.graph.int(v))).collect();
+            let values = values.collect::<Vec<_>>().into_iter();
+            let map: std::collections::HashMap<_, _> = values.map(|(s, v)| (s, world.graph.int(v))).collect();
             let at = world.graph.substitute(e, &map);
             world.graph.is_zero(at)
         })
