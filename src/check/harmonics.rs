@@ -5,8 +5,11 @@
 //! coefficients, for those harmonics in the named angles that the right side has; everything else on the left is left to
 //! the dots. Angles that are not named are parameters, of which coefficients may depend.
 //!
-//! The coefficients are means over a grid of n points in each angle, which are exact for sums of a degree below n/2. That
-//! both sides are such sums is tried at a point that is none of the grid's.
+//! Which harmonics the sides have is seen, in doubles and at one state of the parameters, on a grid of n points in each
+//! angle, that tells those below n/2 apart; that there are no others is tried at a point that is none of the grid's. The
+//! coefficients themselves are means over a few points only, the multiples of one vector (a rank-1 lattice, I. H. Sloan and
+//! S. Joe, *Lattice Methods for Multiple Integration*, 1994), so chosen that each printed harmonic is told apart from all
+//! others that the sides have.
 
 use std::collections::HashMap;
 
@@ -19,6 +22,8 @@ use super::claim::{Branch, Pair};
 const POINTS: [i64; 4] = [3, 5, 7, 9];
 /// The most points of a grid.
 const MOST_POINTS: usize = 2500;
+/// The vectors that are tried for each number of points.
+const MOST_VECTORS: i64 = 64;
 /// How large a harmonic must be to count, and how well a sum must be met, relative to the largest.
 const NOTICED: f64 = 1e-9;
 
@@ -30,25 +35,35 @@ pub(super) fn project(world: &mut World, branches: &mut [Branch], angles: &[SymI
     for branch in branches {
         let mut coefficients = Branch::new();
         for pair in std::mem::take(branch) {
-            let (points, harmonics) = harmonics(world, &pair, angles)?;
-            coefficients.extend(Grid::new(world, &pair, angles, points).coefficients(world, &pair, angles, &harmonics));
+            let found = harmonics(world, &pair, angles)?;
+            let lattice = Lattice::telling_apart(&found).ok_or("the harmonics of the sides are too many")?;
+            let values = Values::new(world, &pair, angles, lattice);
+            coefficients.extend(values.coefficients(world, &pair, angles, &found.printed));
         }
         *branch = coefficients;
     }
     Ok(())
 }
 
-/// The harmonics of the right side, as whole numbers for each angle, and the points in each angle that tell them apart.
-fn harmonics(world: &World, pair: &Pair, angles: &[SymId]) -> Result<(i64, Vec<Vec<i64>>), String> {
+/// Harmonics, as whole numbers for each angle; one of each pair k and -k.
+struct Harmonics {
+    /// Those of the right side.
+    printed: Vec<Vec<i64>>,
+    /// Those of either side.
+    all: Vec<Vec<i64>>,
+}
+
+/// The harmonics of both sides.
+fn harmonics(world: &World, pair: &Pair, angles: &[SymId]) -> Result<Harmonics, String> {
     let sides = Sides::new(world, pair, angles);
     for points in POINTS {
         if points.checked_pow(angles.len() as u32).is_none_or(|n| n as usize > MOST_POINTS) {
             break;
         }
         if let Some(found) = sides.harmonics(points) {
-            return match found.is_empty() {
+            return match found.printed.is_empty() {
                 true => Err("the right side has no harmonics in these angles".into()),
-                false => Ok((points, found)),
+                false => Ok(found),
             };
         }
     }
@@ -86,11 +101,12 @@ impl Sides {
         [values[0], values[1]]
     }
 
-    /// The harmonics of the right side, if a grid of so many points in each angle determines both sides.
-    fn harmonics(&self, points: i64) -> Option<Vec<Vec<i64>>> {
+    /// The harmonics, if a grid of so many points in each angle determines both sides.
+    fn harmonics(&self, points: i64) -> Option<Harmonics> {
         let mut work = Workspace::default();
         let grid = tuples(self.places.len(), 0, points - 1);
         let turn = |j: i64| std::f64::consts::TAU * j as f64 / points as f64;
+        let circle: Vec<(f64, f64)> = (0..points).map(|j| turn(j).sin_cos()).collect();
         let samples = grid.iter().map(|j| self.at(&j.iter().map(|j| turn(*j)).collect::<Vec<_>>(), &mut work));
         let samples: Vec<[f64; 2]> = samples.collect();
         let elsewhere: Vec<f64> = (0..self.places.len()).map(|k| 0.7 + 1.3 * k as f64).collect();
@@ -100,7 +116,7 @@ impl Sides {
             let factor = if harmonic.iter().all(|k| *k == 0) { 1.0 } else { 2.0 } / samples.len() as f64;
             let (mut cos, mut sin) = ([0.0; 2], [0.0; 2]);
             for (j, sample) in grid.iter().zip(&samples) {
-                let (s, c) = turn(dot(&harmonic, j).rem_euclid(points)).sin_cos();
+                let (s, c) = circle[dot(&harmonic, j).rem_euclid(points) as usize];
                 for side in 0..2 {
                     cos[side] += factor * c * sample[side];
                     sin[side] += factor * s * sample[side];
@@ -110,34 +126,74 @@ impl Sides {
                 sum[side] += cos[side] * phase.cos() + sin[side] * phase.sin();
                 largest = largest.max(cos[side].hypot(sin[side]));
             }
-            sizes.push((harmonic, cos[1].hypot(sin[1])));
+            sizes.push((harmonic, [0, 1].map(|side| cos[side].hypot(sin[side]))));
         }
         let there = self.at(&elsewhere, &mut work);
         let met = (0..2).all(|side| (sum[side] - there[side]).abs() <= NOTICED * largest);
-        met.then(|| sizes.into_iter().filter(|(_, size)| *size > NOTICED * largest).map(|(k, _)| k).collect())
+        let above = |least: &dyn Fn(&[f64; 2]) -> f64| {
+            let noticed = sizes.iter().filter(|(_, size)| least(size) > NOTICED * largest);
+            noticed.map(|(k, _)| k.clone()).collect()
+        };
+        met.then(|| Harmonics { printed: above(&|size| size[1]), all: above(&|size| size[0].max(size[1])) })
     }
 }
 
-/// Both sides at the points of a grid, as expressions in all that is no angle.
-struct Grid {
+/// The multiples of a vector of whole numbers, each a point: so many parts of a whole turn in each angle.
+struct Lattice {
     points: i64,
-    values: Vec<(Vec<i64>, Expr, Expr)>,
+    vector: Vec<i64>,
 }
 
-impl Grid {
-    fn new(world: &mut World, pair: &Pair, angles: &[SymId], points: i64) -> Self {
+impl Lattice {
+    /// The lattice of the fewest points found that tells the printed harmonics apart from all others.
+    fn telling_apart(harmonics: &Harmonics) -> Option<Self> {
+        let length = harmonics.printed.first()?.len();
+        let apart = |lattice: &Lattice| {
+            let seen = |k: &[i64]| dot(k, &lattice.vector).rem_euclid(lattice.points);
+            harmonics.printed.iter().all(|printed| {
+                let minus: Vec<i64> = printed.iter().map(|k| -k).collect();
+                let constant = *printed == minus;
+                (constant || seen(printed) != seen(&minus))
+                    && harmonics.all.iter().filter(|k| *k != printed).all(|k| {
+                        let own = seen(k);
+                        own != seen(printed) && own != seen(&minus)
+                    })
+            })
+        };
+        for points in 2..=MOST_POINTS as i64 {
+            for step in 1..points.min(MOST_VECTORS) {
+                // Korobov's vectors: 1, a, a², ..
+                let powers = std::iter::successors(Some(1), |p| Some(p * step % points));
+                let lattice = Lattice { points, vector: powers.take(length).collect() };
+                if apart(&lattice) {
+                    return Some(lattice);
+                }
+            }
+        }
+        None
+    }
+}
+
+/// Both sides at the points of a lattice, as expressions in all that is no angle.
+struct Values {
+    lattice: Lattice,
+    sides: Vec<(Expr, Expr)>,
+}
+
+impl Values {
+    fn new(world: &mut World, pair: &Pair, angles: &[SymId], lattice: Lattice) -> Self {
         let graph = &mut world.graph;
-        let turns: Vec<Expr> = (0..points).map(|j| turn(graph, j, points)).collect();
-        let mut values = Vec::new();
-        for j in tuples(angles.len(), 0, points - 1) {
+        let mut sides = Vec::new();
+        for j in 0..lattice.points {
             if graph.cut_short().is_some() {
                 break;
             }
-            let map: HashMap<SymId, Expr> = angles.iter().zip(&j).map(|(a, j)| (*a, turns[*j as usize])).collect();
-            let (lhs, rhs) = (graph.substitute(pair.lhs, &map), graph.substitute(pair.rhs, &map));
-            values.push((j, lhs, rhs));
+            let at = |k: &i64| turn(graph, (j * k).rem_euclid(lattice.points), lattice.points);
+            let angle: Vec<Expr> = lattice.vector.iter().map(at).collect();
+            let map: HashMap<SymId, Expr> = angles.iter().copied().zip(angle).collect();
+            sides.push((graph.substitute(pair.lhs, &map), graph.substitute(pair.rhs, &map)));
         }
-        Grid { points, values }
+        Values { lattice, sides }
     }
 
     fn coefficients(&self, world: &mut World, pair: &Pair, angles: &[SymId], harmonics: &[Vec<i64>]) -> Branch {
@@ -163,10 +219,11 @@ impl Grid {
 
     fn coefficient(&self, graph: &mut Graph, harmonic: &[i64], function: Func) -> (Expr, Expr) {
         let double = harmonic.iter().any(|k| *k != 0);
-        let factor = graph.ratio(if double { 2 } else { 1 }, self.values.len().max(1) as i128);
+        let factor = graph.ratio(if double { 2 } else { 1 }, self.sides.len().max(1) as i128);
         let (mut left, mut right) = (graph.int(0), graph.int(0));
-        for (j, lhs, rhs) in &self.values {
-            let angle = turn(graph, dot(harmonic, j).rem_euclid(self.points), self.points);
+        let step = dot(harmonic, &self.lattice.vector);
+        for (j, (lhs, rhs)) in (0..).zip(&self.sides) {
+            let angle = turn(graph, (step * j).rem_euclid(self.lattice.points), self.lattice.points);
             let value = graph.call(function, angle);
             let weight = graph.mul(factor, value);
             let (l, r) = (graph.mul(weight, *lhs), graph.mul(weight, *rhs));
@@ -217,6 +274,25 @@ fn phase_latex(world: &World, angles: &[SymId], harmonic: &[i64]) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn a_lattice_tells_harmonics_apart() {
+        let all = half_space(3, 5);
+        let printed = vec![vec![0, 0, 0], vec![1, 0, -2], vec![0, 2, 1]];
+        let Lattice { points, vector } =
+            Lattice::telling_apart(&Harmonics { printed: printed.clone(), all: all.clone() }).unwrap();
+        let mean = |k: &[i64], l: &[i64]| -> f64 {
+            let turn = |h: &[i64], j: i64| std::f64::consts::TAU * (dot(h, &vector) * j) as f64 / points as f64;
+            (0..points).map(|j| turn(k, j).cos() * turn(l, j).cos()).sum::<f64>() / points as f64
+        };
+        for k in &printed {
+            for l in all.iter().filter(|l| *l != k) {
+                assert!(mean(k, l).abs() < 1e-12, "{k:?} {l:?}");
+            }
+            assert!(mean(k, k) > 0.49, "{k:?}");
+        }
+        assert!(points < 125, "{points}");
+    }
 
     #[test]
     fn half_of_the_harmonics() {

@@ -98,7 +98,8 @@ mod tests {
     use super::super::World;
     use super::super::testing::{scope, value};
 
-    const DECLARED: &str = "cyclic = ['a, b, c', 'x_1, x_2, x_3']\n[symbols]\n'a, b, c, d, x_1, x_2, x_3' = { range = [0.5, 2.0] }\n";
+    const DECLARED: &str =
+        "cyclic = ['a, b, c', 'x_1, x_2, x_3']\n[symbols]\n'a, b, c, d, x_1, x_2, x_3' = { range = [0.5, 2.0] }\n";
 
     fn same(sum: &str, written: &str) -> bool {
         let (mut world, scope) = (World::new(), scope(DECLARED));

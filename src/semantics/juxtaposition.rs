@@ -194,14 +194,14 @@ impl Elaborator<'_> {
             return Ok(found);
         }
         let (head, sup) = head_and_power(node);
+        if complex::is_unit(head) {
+            let unit = Typed::new(complex::unit(&mut self.world.graph), "i");
+            return self.with_power(unit, sup, &node.span).map(|t| (t, 1));
+        }
         if let Some(name) = function_name(head) {
             return self.function(name, sup, node, &items[1..]).map(|(t, n)| (t, n + 1));
         }
         match &head.kind {
-            _ if complex::is_unit(head) => {
-                let unit = Typed::new(complex::unit(&mut self.world.graph), "i");
-                return self.with_power(unit, sup, &node.span).map(|t| (t, 1));
-            }
             Kind::BigOp(op) => {
                 let reach = self.reach(head, &items[1..]);
                 return self.big_operator(*op, node, &items[1..=reach]).map(|t| (t, reach + 1));
