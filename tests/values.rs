@@ -113,6 +113,8 @@ fn a_value_without_data_is_a_datum_and_known_behind() {
     let judgement = one(r"a = 0.2, \quad b = 1/a, \quad b = 5.0", "kind = 'value'\nwhere = ['b = 1/a']");
     let verdicts: Vec<Verdict> = judgement.links.iter().map(|l| l.verdict).collect();
     assert_eq!(verdicts, [Verdict::Definition, Verdict::Holds, Verdict::Holds]);
+    let judgement = one("a = 0.2", "kind = 'value'\nwhere = ['a = 2 b']");
+    assert_eq!(judgement.verdict, Verdict::Undecided);
     let judgement = one("a + b = 0.2", "kind = 'value'");
     assert_eq!(judgement.verdict, Verdict::Undecided);
     assert!(judgement.reason.unwrap().contains("no value is known"));

@@ -78,15 +78,6 @@ pub struct Claim {
     pub partial: bool,
 }
 
-/// What premises state, of scalars.
-#[derive(Clone, Debug, Default)]
-pub struct Stated {
-    /// What is equal.
-    pub equal: Vec<(Expr, Expr)>,
-    /// What is greater or less than zero.
-    pub ordered: Vec<(Rel, Expr)>,
-}
-
 /// Why a claim could not be made.
 #[derive(Clone, Debug)]
 pub enum Obstacle {
@@ -136,7 +127,7 @@ impl<'b> Source<'b> {
         Source { link: Some(link), ..*self }
     }
 
-    fn scope(&self) -> &Scope {
+    pub(super) fn scope(&self) -> &Scope {
         &self.book.entries[self.index].scope
     }
 
@@ -245,118 +236,6 @@ impl<'b> Source<'b> {
         Ok(links)
     }
 
-    /// What the premises state.
-    fn given(&self, world: &mut World) -> Result<Stated, Obstacle> {
-        let entry = &self.book.entries[self.index];
-        let mut stated = Stated::default();
-        for text in entry.wheres(self.link) {
-            self.add_text(world, text, &mut stated)?;
-        }
-        for reference in entry.given(self.link) {
-            self.add_equation(world, reference, &mut stated)?;
-        }
-        self.add_data(world, &mut stated)?;
-        self.add_assumed(world, &mut stated)?;
-        Ok(stated)
-    }
-
-    /// The pairs of equal scalars that the section's assumptions state: what symbols are defined as, for the most part.
-    pub(super) fn assumed(&self, world: &mut World) -> Result<Vec<(Expr, Expr)>, Obstacle> {
-        let mut stated = Stated::default();
-        self.add_assumed(world, &mut stated)?;
-        Ok(stated.equal)
-    }
-
-    fn add_assumed(&self, world: &mut World, stated: &mut Stated) -> Result<(), Obstacle> {
-        self.scope().assume.iter().try_for_each(|text| self.add_text(world, text, stated))
-    }
-
-    fn add_text(&self, world: &mut World, text: &Spanned<String>, stated: &mut Stated) -> Result<(), Obstacle> {
-        let tree = Formula::new(&text.value).tree.map_err(|e| broken(text, &e))?;
-        let statement = semantics::statement(&tree, None).map_err(|e| unclear(text, &e))?;
-        for clause in &statement.clauses {
-            self.add_clause(world, self.scope(), clause, stated).map_err(|e| unclear(text, &e))?;
-        }
-        Ok(())
-    }
-
-    /// Adds what an equation states, as corrected where it has a correction.
-    fn add_equation(
-        &self,
-        world: &mut World,
-        reference: &Spanned<String>,
-        stated: &mut Stated,
-    ) -> Result<(), Obstacle> {
-        let obstacle =
-            |message: String| Obstacle::Premise(format!("({})", reference.value), message, reference.span.clone());
-        let (index, part) =
-            self.book.find(&reference.value).ok_or_else(|| obstacle("there is no such equation".into()))?;
-        let statement = self.book.statement(index, Version::Corrected).map_err(|u| obstacle(unclear_text(&u)))?;
-        let scope = &self.book.entries[index].scope;
-        // What continues an earlier chain states its last side to equal the chain's first.
-        let head = statement.clauses.first().filter(|c| c.continued).and(statement.head.clone());
-        for clause in statement.clauses.iter().filter(|c| part.is_none_or(|p| c.part == p)) {
-            let mut clause = clause.clone();
-            if let (true, Some(head)) = (clause.continued, &head) {
-                clause.lhs = head.clone();
-            }
-            self.add_clause(world, scope, &clause, stated).map_err(|e| obstacle(with_help(&e)))?;
-        }
-        Ok(())
-    }
-
-    /// Adds what a clause states, where it is an equation or says what is greater.
-    fn add_clause(&self, world: &mut World, scope: &Scope, clause: &Clause, stated: &mut Stated) -> Result<(), Error> {
-        // What holds under a condition is given with it.
-        clause.when.iter().try_for_each(|condition| self.add_clause(world, scope, condition, stated))?;
-        let ordered = matches!(clause.rel, Rel::Lt | Rel::Le | Rel::Gt | Rel::Ge);
-        let equal = matches!(clause.rel, Rel::Eq | Rel::Equiv | Rel::Implies) || semantics::is_geometric(clause.rel);
-        if !ordered && !equal {
-            return Ok(());
-        }
-        let link = semantics::understand(world, scope, clause, true)?;
-        // That numbers are proportional to each other says nothing of their values.
-        if link.rel == Rel::Propto {
-            return Ok(());
-        }
-        let constant = clause.rhs == Side::Constant;
-        for pair in self::pairs(world, &link, constant) {
-            if ordered {
-                stated.ordered.push((clause.rel, pair.residual));
-                continue;
-            }
-            let stands = (pair.lhs, pair.rhs);
-            stated.equal.push(stands);
-            let rates = in_time(world, pair).into_iter().filter(|pair| !pair.start);
-            stated.equal.extend(rates.map(|pair| (pair.lhs, pair.rhs)).filter(|rate| *rate != stands));
-        }
-        Ok(())
-    }
-
-    /// The clauses of the equations that this one is said to solve.
-    pub fn solved(&self) -> Result<Vec<(Clause, &'b Scope)>, Obstacle> {
-        let mut clauses = Vec::new();
-        for reference in self.book.entries[self.index].list(|a| &a.solves) {
-            let obstacle =
-                |message: String| Obstacle::Premise(format!("({})", reference.value), message, reference.span.clone());
-            let (index, part) =
-                self.book.find(&reference.value).ok_or_else(|| obstacle("there is no such equation".into()))?;
-            let statement = self.book.statement(index, Version::Corrected).map_err(|u| obstacle(unclear_text(&u)))?;
-            let scope = self.book.entries[index].scope.as_ref();
-            let head = statement.head.clone();
-            for mut clause in statement.clauses {
-                if part.is_some_and(|p| clause.part != p) {
-                    continue;
-                }
-                if let (true, Some(head)) = (clause.continued, &head) {
-                    clause.lhs = head.clone();
-                }
-                clauses.push((clause, scope));
-            }
-        }
-        Ok(clauses)
-    }
-
     /// A symbol named in an annotation; a family's as a tuple.
     pub(super) fn symbol(&self, world: &mut World, text: &Spanned<String>) -> Result<Value, Obstacle> {
         let tree = Formula::new(&text.value).tree.map_err(|e| broken(text, &e))?;
@@ -449,16 +328,16 @@ impl<'b> Source<'b> {
 }
 
 /// LaTeX in an annotation that cannot be read.
-fn broken(text: &Spanned<String>, error: &ParseError) -> Obstacle {
+pub(super) fn broken(text: &Spanned<String>, error: &ParseError) -> Obstacle {
     Obstacle::Premise(text.value.clone(), error.message.clone(), text.place(error.span.clone()))
 }
 
 /// LaTeX in an annotation that cannot be understood.
-fn unclear(text: &Spanned<String>, error: &Error) -> Obstacle {
+pub(super) fn unclear(text: &Spanned<String>, error: &Error) -> Obstacle {
     Obstacle::Premise(text.value.clone(), with_help(error), text.place(error.span.clone()))
 }
 
-fn with_help(error: &Error) -> String {
+pub(super) fn with_help(error: &Error) -> String {
     match &error.help {
         Some(help) => format!("{} ({help})", error.message),
         None => error.message.clone(),
@@ -529,7 +408,7 @@ fn resolve(world: &mut World, premises: &Premises, branches: &mut [Branch], rel:
 
 /// An equation between integrals along the motion, or differences from its start, as two: what holds for all times is what
 /// holds at the start and has the same rate ever after.
-fn in_time(world: &mut World, pair: Pair) -> Vec<Pair> {
+pub(super) fn in_time(world: &mut World, pair: Pair) -> Vec<Pair> {
     if !world.remembers(pair.lhs) && !world.remembers(pair.rhs) {
         return vec![pair];
     }

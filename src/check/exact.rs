@@ -1,6 +1,8 @@
 //! Equalities that hold in doubles, tested once more in the prime field: where all trials vanish they hold exactly, but
 //! for a chance that is known. See [`crate::expr::field`] for what this rests on.
 
+use std::collections::HashMap;
+
 use serde::Serialize;
 
 use crate::expr::field::{Element, Field, Point, Values};
@@ -9,7 +11,7 @@ use crate::number::F61;
 
 use super::claim::Claim;
 use super::elimination::{Elimination, Unsolved};
-use super::random::Random;
+use super::random::{Decimal, Random};
 use super::sampling::no_state_text;
 use super::system::NoState;
 
@@ -79,12 +81,30 @@ pub enum Inexact {
 /// first, which says more and is cheaper.
 pub fn test(claim: &mut Claim, unknowns: &[SymId], random: &mut Random) -> Result<Exact, Inexact> {
     let targets = targets(claim)?;
+    let targets = with_values(claim, &targets, unknowns);
     let outcome = on_premises(claim, &targets, &[], &[], random);
     if outcome.is_ok() || claim.premises.residuals.is_empty() {
         return outcome;
     }
     let premises = claim.premises.residuals.clone();
+    let premises = with_values(claim, &premises, unknowns);
     on_premises(claim, &targets, &premises, unknowns, random)
+}
+
+/// Expressions in which symbols that are declared to have one value have it. Their derivatives are what they are.
+fn with_values(claim: &mut Claim, expressions: &[Expr], unknowns: &[SymId]) -> Vec<Expr> {
+    let world = &mut claim.world;
+    let mut values = HashMap::new();
+    for symbol in world.graph.symbols(expressions).into_iter().filter(|s| !unknowns.contains(s)) {
+        if let Some([low, high]) = world.facts(symbol).range
+            && low == high
+        {
+            let value = Decimal::only(low);
+            let value = world.graph.ratio(value.num.into(), value.den.into());
+            values.insert(symbol, value);
+        }
+    }
+    expressions.iter().map(|e| world.graph.substitute(*e, &values)).collect()
 }
 
 /// As many trials as the aim needs.

@@ -1,7 +1,7 @@
 //! The judgement on an equation: each link of its chain is claimed, evaluated and decided; the worst decides.
 
 use std::collections::HashSet;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use crate::document::Problem;
 use crate::expr::Deadline;
@@ -13,35 +13,13 @@ use super::claim::{Claim, Obstacle, Source, obstacle_text, unclear_text};
 use super::decide;
 use super::general;
 use super::law;
+use super::options::Options;
 use super::order::{self, Measure};
 use super::remark;
 use super::stateless;
 use super::trouble;
 use super::value;
 use super::verdict::{Correction, DimensionStatus, Judgement, LinkJudgement, LostBits, Strength, Verdict};
-
-/// What the checker is asked for.
-#[derive(Clone, Debug)]
-pub struct Options {
-    /// The seed of the states.
-    pub seed: u64,
-    /// The number of states for each link.
-    pub states: usize,
-    /// The precision in bits to decide in, where one is asked for (feature `rug`); otherwise double-double.
-    pub precision: Option<u32>,
-    /// Whether a judgement is to say more than its verdict rests on: certificates of counterexamples (feature `rug`), the
-    /// bits that doubles lose.
-    pub evidence: bool,
-    /// The time that each stage may take for an equation: judging it, judging its correction, trying its mutants,
-    /// searching what was meant. `None` for no limit.
-    pub budget: Option<Duration>,
-}
-
-impl Default for Options {
-    fn default() -> Self {
-        Options { seed: 1, states: 64, precision: None, evidence: true, budget: None }
-    }
-}
 
 /// Judges an equation of a book.
 pub fn judge(book: &Book, index: usize, options: &Options) -> Judgement {
@@ -198,8 +176,8 @@ pub(super) fn judge_statement(source: &Source, statement: &Statement, options: &
         let source = &source.at(k);
         if defines(book, index, clause) {
             links.push(match source.claim(clause, &entry.scope, &known) {
-                Ok(_) => definition(clause),
-                Err(obstacle) => obstructed(unjudged(clause), source, clause, &obstacle),
+                Ok(_) => LinkJudgement::definition(clause.latex()),
+                Err(obstacle) => obstructed(LinkJudgement::unjudged(clause.latex()), source, clause, &obstacle),
             });
             known.push(clause.clone());
         } else {
@@ -209,7 +187,7 @@ pub(super) fn judge_statement(source: &Source, statement: &Statement, options: &
                 known.push(Clause { rel: Rel::Eq, ..clause.clone() });
                 links.push(link);
             } else if equality && kind(book, index) == "law" && link.verdict != Verdict::Holds {
-                links.push(taken_as_law(link, source, clause, &known, options));
+                links.push(law::taken(link, source, clause, &known, options));
                 known.push(clause.clone());
             } else {
                 links.push(link);
@@ -241,24 +219,6 @@ fn nothing_to_evaluate(entry: &Entry, version: Version) -> Outcome {
     }
 }
 
-/// A law that does not follow from its premises is taken as given, if any state satisfies it together with them.
-fn taken_as_law(
-    link: LinkJudgement,
-    source: &Source,
-    clause: &Clause,
-    known: &[Clause],
-    options: &Options,
-) -> LinkJudgement {
-    match law::satisfying_states(source, clause, known, options) {
-        Ok(0) => LinkJudgement { reason: Some("a law that no state satisfies".into()), ..link },
-        Ok(states) => {
-            let reason = Some("a law: taken as given, and there are states that satisfy it".into());
-            LinkJudgement { states, reason, ..definition(clause) }
-        }
-        Err(_) => link,
-    }
-}
-
 /// A solution is judged by putting it into what it is said to solve.
 fn judge_solution(source: &Source, clauses: &[Clause], options: &Options) -> Outcome {
     let solved = match source.solved() {
@@ -282,9 +242,14 @@ fn judge_solution(source: &Source, clauses: &[Clause], options: &Options) -> Out
             Ok(None) => None,
             Ok(Some(defect)) => {
                 let (verdict, strength) = (Verdict::Fails, Some(Strength::Numeric));
-                Some(LinkJudgement { verdict, strength, reason: Some(defect), ..unjudged(clause) })
+                Some(LinkJudgement {
+                    verdict,
+                    strength,
+                    reason: Some(defect),
+                    ..LinkJudgement::unjudged(clause.latex())
+                })
             }
-            Err(obstacle) => Some(obstructed(unjudged(clause), source, clause, &obstacle)),
+            Err(obstacle) => Some(obstructed(LinkJudgement::unjudged(clause.latex()), source, clause, &obstacle)),
         };
         links.extend(generality);
     }
@@ -334,31 +299,6 @@ pub(super) fn defines(book: &Book, index: usize, clause: &Clause) -> bool {
     !clause.continued && !approximation && (fresh(&clause.lhs) || fresh(rhs)) && apart(&clause.lhs, rhs)
 }
 
-fn definition(clause: &Clause) -> LinkJudgement {
-    LinkJudgement { verdict: Verdict::Definition, ..unjudged(clause) }
-}
-
-/// A judgement on a clause that says nothing yet.
-pub(super) fn unjudged(clause: &Clause) -> LinkJudgement {
-    LinkJudgement {
-        latex: clause.latex(),
-        verdict: Verdict::Undecided,
-        strength: None,
-        reason: None,
-        residual: None,
-        bits: None,
-        states: 0,
-        failing_states: 0,
-        counterexample: None,
-        order: None,
-        problem: None,
-        exact: None,
-        inexact: None,
-        lost_bits: None,
-        restated: false,
-    }
-}
-
 /// Judges a link, and says where in the file that lies which it lacks.
 pub(super) fn judge_link(
     source: &Source,
@@ -379,7 +319,7 @@ pub(super) fn judge_link(
 }
 
 fn link_verdict(source: &Source, clause: &Clause, scope: &Scope, known: &[Clause], options: &Options) -> LinkJudgement {
-    let mut judgement = unjudged(clause);
+    let mut judgement = LinkJudgement::unjudged(clause.latex());
     let entry = &source.book.entries[source.index];
     let printed = value::is_value(source.book, source.index).then(|| value::printed(entry, clause)).flatten();
     let small = entry.annotation().is_some_and(|a| a.small.is_some());
@@ -409,7 +349,7 @@ fn link_verdict(source: &Source, clause: &Clause, scope: &Scope, known: &[Clause
     match source.claim(&mapped, scope, known) {
         Err(obstacle) => obstructed(judgement, source, clause, &obstacle),
         Ok(claim) => match printed.filter(|p| !p.is_arithmetic()) {
-            Some(printed) => value::judge(judgement, source, clause, &printed, claim, options),
+            Some(printed) => value::judge(judgement, source, &printed, claim, options),
             None => evaluate(judgement, claim, clause.rel, source, options),
         },
     }

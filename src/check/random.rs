@@ -59,6 +59,13 @@ impl Decimal {
     }
 }
 
+impl Decimal {
+    /// What is drawn where the range is a single number.
+    pub fn only(x: f64) -> Self {
+        Decimal::near(x, digits([x, x]))
+    }
+}
+
 impl std::fmt::Display for Decimal {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         // The shortest decimal that is the double nearest to it: short for what is drawn, honest for the rest.
@@ -76,12 +83,16 @@ pub fn draw(random: &mut Random, range: [f64; 2], integer: bool, hard: bool) -> 
         return Decimal { num: first + random.below(n) as i64, den: 1 };
     }
     let width = high - low;
-    // Three significant digits of the width are enough to be generic, and short enough to be read.
-    let digits = (3.0 - width.max(1e-12).log10().floor()).clamp(0.0, 12.0) as u32;
+    let digits = digits(range);
     if !hard {
         return Decimal::near(low + width * random.unit(), digits);
     }
     let distance = width * 10_f64.powf(-2.0 - 2.0 * random.unit());
     let x = if random.below(2) == 0 { low + distance } else { high - distance };
     Decimal::near(x, digits + 3)
+}
+
+/// Three significant digits of the width are enough to be generic, and short enough to be read.
+fn digits([low, high]: [f64; 2]) -> u32 {
+    (3.0 - (high - low).max(1e-12).log10().floor()).clamp(0.0, 12.0) as u32
 }

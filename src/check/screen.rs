@@ -13,7 +13,7 @@ use crate::semantics::{self, Clause, Side};
 
 use super::book::{Book, Version};
 use super::claim::{Claim, Related, Source};
-use super::judge::Options;
+use super::options::Options;
 use super::random::{Random, draw};
 use super::sampling::Sampler;
 use super::system::source;

@@ -1,11 +1,10 @@
 //! What stands beside an equation without a relation: a remark, or a part that nothing is said about.
 
-use crate::latex::ast::{Kind, Node, Rel};
+use crate::latex::ast::{Kind, Node};
 use crate::latex::to_latex;
-use crate::semantics::{self, Clause, Scope, Side};
+use crate::semantics::{self, Scope};
 
 use super::claim::Source;
-use super::judge::unjudged;
 use super::trouble;
 use super::verdict::LinkJudgement;
 
@@ -30,8 +29,5 @@ pub fn undecided(source: &Source, bare: &Node) -> LinkJudgement {
     let entry = &source.book.entries[source.index];
     let reason = "no relation stands in this part: nothing is said about it";
     let problem = trouble::part(entry, source.version, &bare.span, reason);
-    let clause =
-        Clause { lhs: bare.clone(), rel: Rel::Eq, rhs: Side::Constant, part: 0, continued: false, when: Vec::new() };
-    let latex = to_latex(bare);
-    LinkJudgement { latex, reason: Some(reason.into()), problem: Some(problem), ..unjudged(&clause) }
+    LinkJudgement { reason: Some(reason.into()), problem: Some(problem), ..LinkJudgement::unjudged(to_latex(bare)) }
 }

@@ -15,17 +15,18 @@
 
 use std::collections::BTreeMap;
 
-use crate::expr::{Expr, Node as Op, Tape, Workspace};
+use crate::expr::{Expr, Node as Op, SymId, Tape, Workspace};
 use crate::latex::ast::{Delim, Kind, Node, Rel, Sign, Term};
 use crate::number::{Df64, Number};
 use crate::semantics::units::Dimension;
 use crate::semantics::{self, Clause, Scope, Side, Value};
 
 use super::book::{Book, Entry};
-use super::claim::{Claim, Obstacle, Source, Stated};
-use super::judge::Options;
+use super::claim::{Claim, Obstacle, Source};
+use super::options::Options;
 use super::random::Random;
 use super::sampling::{Sampler, no_state_text};
+use super::stated::Stated;
 use super::system::State;
 use super::verdict::{LinkJudgement, Strength, Verdict};
 
@@ -92,17 +93,15 @@ pub fn printed(entry: &Entry, clause: &Clause) -> Option<Printed> {
 pub fn judge(
     judgement: LinkJudgement,
     source: &Source,
-    clause: &Clause,
     printed: &Printed,
-    claim: Claim,
+    mut claim: Claim,
     options: &Options,
 ) -> LinkJudgement {
-    let entry = &source.book.entries[source.index];
-    match compared(&judgement, source, clause, printed, claim, options) {
+    match compared(&judgement, source, printed, &mut claim, options) {
         Ok(judged) => judged,
-        Err(Missing::Data(symbol)) if is_name(entry, other(clause, printed)) => {
-            let reason = format!("a datum of the notes: neither data nor premises say what {symbol} is");
-            LinkJudgement { verdict: Verdict::Definition, reason: Some(reason), ..judgement }
+        Err(Missing::Datum) => {
+            let reason = "a datum of the notes: neither data nor premises say what it is";
+            LinkJudgement { verdict: Verdict::Definition, reason: Some(reason.into()), ..judgement }
         }
         Err(Missing::Data(symbol)) => {
             let reason = format!("no value is known for {symbol}: give it one under data = {{ '{symbol}' = ... }}");
@@ -114,71 +113,79 @@ pub fn judge(
 
 /// Why a printed value could not be compared.
 enum Missing {
+    /// It is printed for a symbol alone of which nothing is known.
+    Datum,
     /// The value of a symbol.
     Data(String),
     /// Something else.
     Why(String),
 }
 
+impl Missing {
+    fn why(reason: &str) -> Self {
+        Missing::Why(reason.to_owned())
+    }
+}
+
 fn compared(
     judgement: &LinkJudgement,
     source: &Source,
-    clause: &Clause,
     printed: &Printed,
-    mut claim: Claim,
+    claim: &mut Claim,
     options: &Options,
 ) -> Result<LinkJudgement, Missing> {
-    let entry = &source.book.entries[source.index];
     let mut ends = Vec::new();
     if let Form::Rounded(shifted) = &printed.form {
         for side in shifted {
-            ends.push(scalar(&mut claim, &entry.scope, side)?);
+            ends.push(scalar(claim, &source.book.entries[source.index].scope, side)?);
         }
     }
-    let mut random = Random::new(options.seed, &clause.latex());
+    let mut random = Random::new(options.seed, &judgement.latex);
     let tape = Tape::compile(&claim.world.graph, &ends);
-    let sampler = Sampler::new(&mut claim, &mut random, &ends).map_err(|e| Missing::Why(no_state_text(&e)))?;
+    let sampler = Sampler::new(claim, &mut random, &ends).map_err(|e| Missing::Why(no_state_text(&e)))?;
     let states = sampler.states(STATES, &mut random, &BTreeMap::new()).map_err(|e| Missing::Why(no_state_text(&e)))?;
-    let (Some(state), [branch]) = (states.first(), sampler.claim.branches.as_slice()) else {
-        return Err(Missing::Why("a printed value is one number".into()));
-    };
-    if let Some(free) = sampler.system.free.iter().find(|s| sampler.tape.inputs().contains(&s.symbol))
-        && !is_one_number(&sampler, &states)
-    {
-        return Err(Missing::Data(sampler.claim.world.tex(free.symbol)));
-    }
+    let several = || Missing::why("a printed value is one number");
+    let [branch] = sampler.claim.branches.as_slice() else { return Err(several()) };
+    let ([pair], Some(state)) = (branch.as_slice(), states.first()) else { return Err(several()) };
+    known(&sampler, &states, if printed.left { pair.rhs } else { pair.lhs })?;
+
     let values = sampler.evaluate::<Df64>(state, &(), &mut Workspace::default());
-    let (Some(values), [pair]) = (values, branch.as_slice()) else {
-        return Err(Missing::Why("a printed value is one number".into()));
-    };
-    let value = &values[0][0];
+    let value = values.as_ref().and_then(|branches| branches.first()?.first()).ok_or_else(several)?;
     let (lhs, rhs) = (value.lhs.value().to_f64(), value.rhs.value().to_f64());
     let (shown, other) = if printed.left { (lhs, rhs) } else { (rhs, lhs) };
-    let ends = match ends.is_empty() {
-        true => [shown; 2],
-        false => {
-            let Some(refined) = sampler.system.refine::<Df64>(state, &()) else {
-                return Err(Missing::Why("the premises could not be solved precisely".into()));
-            };
-            let inputs: Vec<_> = tape.inputs().iter().map(|s| refined[s.index()].clone()).collect();
-            let mut work = Workspace::default();
-            let ends = tape.eval(&inputs, &(), &mut work);
-            [ends[0].value().to_f64(), ends[1].value().to_f64()]
-        }
-    };
-    let (agrees, rule) = agreement(&printed.form, shown, other, ends);
-    let example = (!agrees).then(|| sampler.counterexample(state, &(), pair, value, &[]));
+    let (agrees, rule) = agreement(&printed.form, shown, other, &at_state(&sampler, &tape, state)?);
     Ok(LinkJudgement {
         verdict: if agrees { Verdict::Holds } else { Verdict::Fails },
         strength: Some(Strength::Numeric),
         residual: Some((other - shown).abs() / shown.abs()),
         states: 1,
         failing_states: usize::from(!agrees),
-        counterexample: example,
+        counterexample: (!agrees).then(|| sampler.counterexample(state, &(), pair, value, &[])),
         reason: Some(format!("printed {}, evaluated {}: {rule}", decimal(shown), decimal(other))),
         inexact: Some("a printed value is rounded".into()),
         ..judgement.clone()
     })
+}
+
+/// Whether the sides are known: data and premises say all they depend on, or what is left free cancels. `other` is the
+/// side that is no number.
+fn known(sampler: &Sampler, states: &[State], other: Expr) -> Result<(), Missing> {
+    let inputs = sampler.tape.inputs();
+    let free: Vec<SymId> = sampler.system.free.iter().map(|s| s.symbol).filter(|s| inputs.contains(s)).collect();
+    let Some(first) = free.first().filter(|_| !is_one_number(sampler, states)) else { return Ok(()) };
+    let world = &sampler.claim.world;
+    Err(match world.graph.node(other) {
+        Op::Symbol(s) if free.contains(s) => Missing::Datum,
+        _ => Missing::Data(world.tex(*first)),
+    })
+}
+
+/// The values of a tape at a state.
+fn at_state(sampler: &Sampler, tape: &Tape, state: &State) -> Result<Vec<f64>, Missing> {
+    let refined = sampler.system.refine::<Df64>(state, &());
+    let refined = refined.ok_or_else(|| Missing::why("the premises could not be solved precisely"))?;
+    let inputs: Vec<_> = tape.inputs().iter().map(|s| refined[s.index()].clone()).collect();
+    Ok(tape.eval(&inputs, &(), &mut Workspace::default()).iter().map(|x| x.value().to_f64()).collect())
 }
 
 /// Whether the sides are in the same ratio at all states, and so do not depend on what is still free: C - A in units of C, a
@@ -195,10 +202,11 @@ fn is_one_number(sampler: &Sampler, states: &[State]) -> bool {
 }
 
 /// Whether the other side agrees with what is shown, and the rule in words. `ends` are the ends of what rounds to it.
-fn agreement(form: &Form, shown: f64, other: f64, ends: [f64; 2]) -> (bool, String) {
+fn agreement(form: &Form, shown: f64, other: f64, ends: &[f64]) -> (bool, String) {
     match form {
         Form::Rounded(_) | Form::Arithmetic => {
-            let [low, high] = [ends[0].min(ends[1]), ends[0].max(ends[1])];
+            let low = ends.iter().copied().fold(shown, f64::min);
+            let high = ends.iter().copied().fold(shown, f64::max);
             let slack = SLACK * shown.abs();
             let rule = format!("half a unit of the last digit allows {} to {}", decimal(low), decimal(high));
             ((low - slack..=high + slack).contains(&other), rule)
@@ -225,20 +233,6 @@ fn scalar(claim: &mut Claim, scope: &Scope, node: &Node) -> Result<Expr, Missing
         Ok(other) => Err(Missing::Why(format!("a printed value is a number, not {}", other.shape()))),
         Err(error) => Err(Missing::Why(error.message)),
     }
-}
-
-fn other<'c>(clause: &'c Clause, printed: &Printed) -> Option<&'c Node> {
-    match &clause.rhs {
-        Side::Node(rhs) if printed.left => Some(rhs),
-        _ => Some(&clause.lhs).filter(|_| !printed.left),
-    }
-}
-
-/// Whether a side is a declared symbol alone.
-fn is_name(entry: &Entry, side: Option<&Node>) -> bool {
-    side.is_some_and(|n| {
-        entry.scope.get(&semantics::pattern_of(&entry.scope, n)).is_some_and(semantics::Entry::is_free)
-    })
 }
 
 /// Whether a side holds numerals, and beside them only operations, words, π and units of time.

@@ -266,6 +266,34 @@ pub struct LinkJudgement {
     pub restated: bool,
 }
 
+impl LinkJudgement {
+    /// Of a link, given by its LaTeX, of which nothing is said yet.
+    pub fn unjudged(latex: String) -> Self {
+        LinkJudgement {
+            latex,
+            verdict: Verdict::Undecided,
+            strength: None,
+            reason: None,
+            residual: None,
+            bits: None,
+            states: 0,
+            failing_states: 0,
+            counterexample: None,
+            order: None,
+            problem: None,
+            exact: None,
+            inexact: None,
+            lost_bits: None,
+            restated: false,
+        }
+    }
+
+    /// Of a link that gives something its name.
+    pub fn definition(latex: String) -> Self {
+        LinkJudgement { verdict: Verdict::Definition, ..LinkJudgement::unjudged(latex) }
+    }
+}
+
 /// The formula that should have been printed, with the judgement on it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Correction {

@@ -358,8 +358,10 @@ impl<'s> Walk<'s> {
             let text = format!("`{shown}` changed to `{}`", to_latex(&without_power(&new)));
             self.edit(kind, new, &node.span, text);
         }
-        // Another notation of a symbol that depends on time has dots, too.
-        let renamed = matches!(name.entry.kind, EntryKind::Same(_)) && !self.reach.factors.is_empty();
+        // Another notation of a symbol that depends on time has dots, too, and so has what a moving basis gives.
+        let moves =
+            matches!(name.entry.kind, EntryKind::Same(_) | EntryKind::Rate { .. } | EntryKind::Component { .. });
+        let renamed = moves && !self.reach.factors.is_empty();
         if name.entry.of_t || name.dots > 0 || renamed {
             // A scan loses both dots of an acceleration.
             let both = (!self.reach.factors.is_empty()).then_some(name.dots + 2);

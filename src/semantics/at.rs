@@ -18,7 +18,7 @@ impl Elaborator<'_> {
             Kind::Scripts { base, primes: 0, sub: Some(sub), sup } if base.kind == Kind::Empty => {
                 (sub.as_ref(), sup.as_deref())
             }
-            _ if condition(at).is_some() => (at, None),
+            _ if condition(at).is_some() || is_start(at) => (at, None),
             _ => return Err(Error::unsupported("a value at a condition is not evaluated yet", span)),
         };
         if let (Some((name, place)), None) = (condition(below), above) {
@@ -166,6 +166,8 @@ mod tests {
         let mut world = World::new();
         let expected = scalar(&mut world, r"\sin(x) - \sin(c)");
         assert_eq!(scalar(&mut world, r"\left. \sin(x) \right|_c^x"), expected);
+        let (start, bracket) = (scalar(&mut world, r"\left. x^2 \right|_0"), scalar(&mut world, "(x^2)_0"));
+        assert_eq!(start, bracket);
         let rate = scalar(&mut world, r"\left. x^2 \right|_0^t");
         assert!(world.remembers(rate), "up to t it is a difference along the motion");
     }

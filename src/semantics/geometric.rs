@@ -57,10 +57,10 @@ fn rate_of_ratio(world: &mut World, a: Expr, b: Expr) -> Option<Expr> {
             return None;
         }
     }
-    let moves = |world: &World, e: Expr| world.graph.symbols(&[e]).iter().any(|s| world.graph.info(*s).of_t);
     let t = world.graph.find("t");
-    let timed = t.is_some_and(|t| [a, b].iter().all(|e| world.graph.symbols(&[*e]).contains(&t)));
-    if !along && !timed && !(moves(world, a) && moves(world, b)) {
+    let moves = |e: Expr| world.graph.symbols(&[e]).iter().any(|s| world.graph.info(*s).of_t || Some(*s) == t);
+    let together = moves(a) && moves(b);
+    if !along && !together {
         return None;
     }
     let ratio = world.graph.div(above, below);

@@ -327,4 +327,28 @@ mod tests {
         let error = value(&mut World::new(), &scope(SYMBOLS), r"\int_0^t x y").unwrap_err();
         assert!(error.message.contains("differential"), "{error:?}");
     }
+
+    #[test]
+    fn leibniz_rule() {
+        let mut world = World::new();
+        let integral = scalar(&mut world, r"\int_c^x c y^2 x dx");
+        let c = world.graph.find("c").unwrap();
+        let by_parameter = world.partial(integral, c).unwrap();
+        let expected = scalar(&mut world, r"\int_c^x y^2 x dx - c y^2 c");
+        let difference = world.graph.sub(by_parameter, expected);
+        assert!(world.remembers(by_parameter));
+        assert!(world.graph.is_zero(difference), "{}", world.graph.display(difference));
+        let x = world.graph.find("x").unwrap();
+        assert_eq!(world.partial(integral, x), Some(scalar(&mut world, "c y^2 x")));
+        let along = scalar(&mut world, r"\int_0^t x y dt");
+        assert!(world.partial(along, x).is_none() && world.partial(along, c).is_some());
+    }
+
+    #[test]
+    fn integrals_over_one_variable_have_one_lower_limit() {
+        let mut world = World::new();
+        scalar(&mut world, r"\int_c^x x dx");
+        let error = value(&mut world, &scope(SYMBOLS), r"\int_0^x x dx").unwrap_err();
+        assert!(error.message.contains("lower limits"), "{error:?}");
+    }
 }

@@ -125,6 +125,8 @@ pub struct Scope {
     pub natural_units: bool,
     /// The modulus of elliptic functions that are printed without one.
     pub modulus: Option<Node>,
+    /// The triples of names that go round together in cyclic sums.
+    pub cyclic: Vec<[Node; 3]>,
     /// The canonical variables of Poisson brackets: each momentum with its coordinate.
     pub canonical: Vec<(Node, Node)>,
 }
@@ -190,6 +192,13 @@ impl Scope {
         self.natural_units = block.natural_units.unwrap_or(self.natural_units);
         if let Some(modulus) = &block.modulus {
             self.modulus = parse_name(modulus, &mut problems);
+        }
+        if !block.cyclic.is_empty() {
+            let mut read = |names: &[Spanned<String>; 3]| -> Option<[Node; 3]> {
+                let nodes: Vec<Node> = names.iter().filter_map(|n| parse_name(n, &mut problems)).collect();
+                nodes.try_into().ok()
+            };
+            self.cyclic = block.cyclic.iter().filter_map(&mut read).collect();
         }
         if !block.canonical.is_empty() {
             let pairs = block.canonical.iter();

@@ -188,3 +188,11 @@ fn the_misprints_of_the_bundled_notes() {
     }
     assert!(refuted >= 20, "{refuted} of {tested} failing links are refuted by the field");
 }
+
+#[test]
+fn a_symbol_of_one_value_has_it_in_the_field() {
+    assert_exact(r"x^2 + a = 6.25 + a", "range = { 'x' = [2.5, 2.5] }");
+    // At an instant: the rate is not that of a constant.
+    assert_exact(r"\frac{d}{dt} \sin \theta = \dot{\theta}", r"range = { '\theta' = [0.0, 0.0] }");
+    assert_eq!(judged(r"x^2 + a = 6.5 + a", "range = { 'x' = [2.5, 2.5] }").verdict, Verdict::Fails);
+}
