@@ -15,7 +15,10 @@ use crate::expr::Deadline;
 use crate::report::{Run, charts};
 
 /// The notes that Kenzan brings along, by the path they have in the repository.
-const BUNDLED: [(&str, &str); 1] = [("notes/gyroscope.md", include_str!("../notes/gyroscope.md"))];
+const BUNDLED: [(&str, &str); 2] = [
+    ("notes/gyroscope.md", include_str!("../notes/gyroscope.md")),
+    ("notes/celestial-mechanics-3.md", include_str!("../notes/celestial-mechanics-3.md")),
+];
 
 /// What to verify and how.
 #[derive(Clone, Debug, Default)]

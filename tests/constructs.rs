@@ -138,3 +138,65 @@ fn names_that_go_in_a_circle_are_refused() {
     assert!(book.problems.iter().any(|p| p.message.contains("another notation of itself")), "{:?}", book.problems);
     assert_ne!(check::judge(&book, 0, &Options::default()).verdict, Verdict::Holds);
 }
+
+#[test]
+fn rows_and_items_without_a_relation_are_not_passed_over() {
+    let annotation = "";
+    for latex in [
+        r"\begin{aligned} a + b &= b + a \\ a b (a &+ b) \end{aligned}",
+        r"a + b = b + a, \quad a b",
+        r"\left. \begin{array}{l} a + b = b + a \\ a (a + b) \end{array} \right\}",
+    ] {
+        assert_eq!(verdict(latex, annotation), Verdict::Undecided, "{latex}");
+    }
+    // What the next row continues is a side; a name is a remark.
+    for latex in [r"\begin{aligned} a &+ b \\ &= b + a \end{aligned}", r"a + b = b + a, \quad a; \text{ the first}"] {
+        assert_eq!(verdict(latex, annotation), Verdict::Holds, "{latex}");
+    }
+}
+
+#[test]
+fn what_the_print_has_lost_may_be_an_erratum() {
+    let correction = r"correction = '\begin{aligned} a + b &= b + a \\ a b &= b a \end{aligned}'";
+    let lost = r"\begin{aligned} a + b &= b + a \\ a b & b a \end{aligned}";
+    let judged = one(lost, &format!("expect = \"undecided\"\n{correction}"));
+    assert!(judged.verdict == Verdict::Undecided && judged.as_expected && judged.is_erratum());
+    let judged = one(lost, correction);
+    assert!(!judged.as_expected && !judged.is_erratum());
+    let wrong = r"correction = '\begin{aligned} a + b &= b + a \\ a b &= b + a \end{aligned}'";
+    let judged = one(lost, &format!("expect = \"undecided\"\n{wrong}"));
+    assert!(!judged.as_expected && !judged.is_erratum());
+}
+
+#[test]
+fn the_columns_of_an_array_are_one_row() {
+    for (open, eq) in [("{rcl}", "&=&"), ("{rl}", "&="), ("{l}", "=")] {
+        let rows = |right: &str| format!(r"\begin{{array}}{open} a + b {eq} b + a \\ a b {eq} {right} \end{{array}}");
+        tells_apart("", &rows("b a"), &rows("b a + 1"));
+    }
+}
+
+#[test]
+fn conditions_beside_a_row_restrict_it() {
+    tells_apart(
+        "",
+        r"\begin{cases} |a - b| = a - b & a > b \\ |a - b| = b - a & (a < b) \end{cases}",
+        r"\begin{cases} |a - b| = a - b & a < b \\ |a - b| = b - a & (a < b) \end{cases}",
+    );
+    tells_apart(
+        "",
+        r"a^2 - b^2 = (a - b)(a + b) \begin{cases} > 0, & a > b \\ < 0, & a < b \end{cases}",
+        r"a^2 - b^2 = (a - b)(a + b) \begin{cases} > 0, & a < b \\ < 0, & a > b \end{cases}",
+    );
+    // The cell behind continues the first.
+    tells_apart("", r"\begin{cases} a - a = 0 & = b - b \end{cases}", r"\begin{cases} a - a = 0 & = b + b \end{cases}");
+}
+
+#[test]
+fn what_only_restates_a_premise_is_told() {
+    let restated = |latex: &str, annotation: &str| Judgement::only_restates(&one(latex, annotation).links);
+    assert!(restated("x = a + b", "where = ['a + b = x']"));
+    assert!(restated(r"\vec{u} = a \vec{v}", r"where = ['\vec{u} = a \vec{v}']"));
+    assert!(!restated("x - a = b", "where = ['a + b = x']"));
+    assert!(!restated("x = a + b = b + x - b", "where = ['a + b = x']"));
+}

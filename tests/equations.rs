@@ -15,7 +15,7 @@ use kenzan::document;
 use libtest_mimic::{Arguments, Trial};
 
 /// The bundled notes, by their names in `notes/`.
-const NOTES: [&str; 1] = ["gyroscope"];
+const NOTES: [&str; 2] = ["gyroscope", "celestial-mechanics-3"];
 
 fn main() -> ExitCode {
     let arguments = Arguments::from_args();

@@ -277,6 +277,11 @@ impl Book {
         }
         let mut statement: Option<Statement> = None;
         for (at, tree) in chain.into_iter().rev() {
+            // What an approximation leaves out is measured and not read.
+            let approximates =
+                self.entries[at].annotation().is_some_and(|a| a.small.is_some() || !a.harmonics.is_empty());
+            let tree = if approximates { semantics::without_remainder(tree) } else { tree.clone() };
+            let tree = &semantics::without_index_ranges(&tree, &self.entries[at].scope);
             statement = Some(semantics::statement(tree, statement.as_ref()).map_err(|e| match at {
                 _ if at == index => Unclear::Meaning(e),
                 _ => before(at, &e.message),

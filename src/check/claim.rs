@@ -12,6 +12,7 @@ use crate::semantics::{self, Clause, Elaborator, Error, Scope, Side, TypedLink, 
 
 use super::book::{Book, Formula, Unclear, Version};
 use super::premises::Premises;
+use super::proportion;
 
 /// How deep values at the start of the motion may be made of others.
 const MOST_STARTS: usize = 16;
@@ -32,9 +33,16 @@ pub struct Pair {
 }
 
 impl Pair {
-    fn new(graph: &mut Graph, name: Option<String>, lhs: Expr, rhs: Expr) -> Self {
+    pub(super) fn new(graph: &mut Graph, name: Option<String>, lhs: Expr, rhs: Expr) -> Self {
         Pair { name, lhs, rhs, residual: graph.sub(lhs, rhs), start: false }
     }
+}
+
+/// Whether each pair is one of those that are given as equal, apart from what is nothing but itself.
+fn restates(branches: &[Branch], given: &[(Expr, Expr)]) -> bool {
+    let said = |pair: &&Pair| given.contains(&(pair.lhs, pair.rhs)) || given.contains(&(pair.rhs, pair.lhs));
+    let mut pairs = branches.iter().flatten().filter(|pair| pair.lhs != pair.rhs).peekable();
+    pairs.peek().is_some() && pairs.all(|pair| said(&pair))
 }
 
 /// The pairs of one branch of a link.
@@ -64,15 +72,10 @@ pub struct Claim {
     pub bound: BTreeSet<SymId>,
     /// What must be greater or less than zero at a state.
     pub ordered: Vec<(Rel, Expr)>,
-}
-
-/// What premises state, of scalars.
-#[derive(Clone, Debug, Default)]
-pub struct Stated {
-    /// What is equal.
-    pub equal: Vec<(Expr, Expr)>,
-    /// What is greater or less than zero.
-    pub ordered: Vec<(Rel, Expr)>,
+    /// Whether the premises say the same in as many terms: what holds then shows nothing.
+    pub restated: bool,
+    /// Whether its pairs are coefficients of a Fourier series of which some terms are printed.
+    pub partial: bool,
 }
 
 /// Why a claim could not be made.
@@ -124,7 +127,7 @@ impl<'b> Source<'b> {
         Source { link: Some(link), ..*self }
     }
 
-    fn scope(&self) -> &Scope {
+    pub(super) fn scope(&self) -> &Scope {
         &self.book.entries[self.index].scope
     }
 
@@ -155,10 +158,14 @@ impl<'b> Source<'b> {
             branches[0].extend(pairs(&mut world, &link, clause.rhs == Side::Constant));
         }
         let mut given = self.given(&mut world)?;
-        for clause in known {
+        let conditions = clauses.iter().flat_map(|clause| &clause.when);
+        for clause in conditions.chain(known) {
             self.add_clause(&mut world, self.scope(), clause, &mut given).map_err(Obstacle::Link)?;
         }
+        let restated = restates(&branches, &given.equal);
         given.equal.extend(world.integral_rates());
+        given.equal.extend(world.moment.iter().copied());
+        given.ordered.extend(world.precise().iter().map(|e| (Rel::Gt, *e)));
         let small = self.small(&mut world)?;
         let condition = self.condition(&mut world)?;
         let solve = self.solve(&mut world)?;
@@ -172,10 +179,21 @@ impl<'b> Source<'b> {
         let printed: Vec<Expr> = branches.iter().flatten().map(|pair| pair.residual).collect();
         let mentioned = world.graph.symbols(&printed);
         resolve(&mut world, &premises, &mut branches, typed.first().map(|link| link.rel));
+        if typed.first().is_some_and(|link| link.rel == Rel::Propto) {
+            let each = |branch: &Branch, world: &mut World| {
+                branch.iter().flat_map(|pair| proportion::pairs(world, pair)).collect::<Branch>()
+            };
+            branches = branches.iter().map(|branch| each(branch, &mut world)).collect();
+        }
+        let partial = self.harmonics(&mut world, &premises, &mut branches)?;
         for pair in branches.iter().flatten() {
             targets.extend([pair.residual, pair.lhs, pair.rhs]);
         }
         targets.extend(small.iter().map(|(s, _)| world.graph.sym(*s)).collect::<Vec<_>>());
+        // What it is to be equivalent to speaks of symbols that the premises may give.
+        let mut resolved = |e: Expr| premises.resolve(&mut world.graph, e);
+        let condition = condition.map(|(rel, a, b)| (rel, resolved(a), resolved(b)));
+        targets.extend(condition.iter().flat_map(|(_, a, b)| [*a, *b]));
         let ordered: Vec<(Rel, Expr)> =
             given.ordered.iter().map(|(rel, e)| (*rel, premises.resolve(&mut world.graph, *e))).collect();
         let bound: Vec<Expr> = ordered.iter().map(|(_, e)| *e).chain(premises.residuals.iter().copied()).collect();
@@ -188,7 +206,44 @@ impl<'b> Source<'b> {
         world.check(&clause.lhs.span).map_err(Obstacle::Link)?;
         let (lhs_text, rhs_text) = typed.first().map(|l| (l.lhs_text.clone(), l.rhs_text.clone())).unwrap_or_default();
         let rel = clause.rel;
-        Ok(Claim { world, rel, branches, premises, solve, small, lhs_text, rhs_text, condition, bound, ordered })
+        Ok(Claim {
+            world,
+            rel,
+            branches,
+            premises,
+            solve,
+            small,
+            lhs_text,
+            rhs_text,
+            condition,
+            bound,
+            ordered,
+            restated,
+            partial,
+        })
+    }
+
+    /// Where the equation is part of a Fourier series, compares coefficients in the place of sums.
+    fn harmonics(&self, world: &mut World, premises: &Premises, branches: &mut [Branch]) -> Result<bool, Obstacle> {
+        let mut angles = Vec::new();
+        let texts = self.book.entries[self.index].list(|a| &a.harmonics);
+        let bound = world.graph.symbols(&premises.residuals);
+        for text in texts {
+            let obstacle = |message: &str| Obstacle::Premise(text.value.clone(), message.into(), text.span.clone());
+            for e in self.symbol(world, text)?.components() {
+                match *world.graph.node(e) {
+                    Node::Symbol(s) if bound.contains(&s) => {
+                        return Err(obstacle("the premises bind this angle; declare by `same` what depends on it"));
+                    }
+                    Node::Symbol(s) => angles.push(s),
+                    _ => return Err(obstacle("an angle of a Fourier series must be a symbol")),
+                }
+            }
+        }
+        let Some(first) = texts.first().filter(|_| !angles.is_empty()) else { return Ok(false) };
+        super::harmonics::project(world, branches, &angles)
+            .map_err(|message| Obstacle::Premise("harmonics".into(), message, first.span.clone()))?;
+        Ok(true)
     }
 
     pub(super) fn branches(&self, world: &mut World, scope: &Scope, clause: &Clause) -> Result<Vec<TypedLink>, Error> {
@@ -202,111 +257,6 @@ impl<'b> Source<'b> {
             }
         }
         Ok(links)
-    }
-
-    /// What the premises state.
-    fn given(&self, world: &mut World) -> Result<Stated, Obstacle> {
-        let entry = &self.book.entries[self.index];
-        let mut stated = Stated::default();
-        for text in entry.wheres(self.link) {
-            self.add_text(world, text, &mut stated)?;
-        }
-        for reference in entry.given(self.link) {
-            self.add_equation(world, reference, &mut stated)?;
-        }
-        self.add_assumed(world, &mut stated)?;
-        Ok(stated)
-    }
-
-    /// The pairs of equal scalars that the section's assumptions state: what symbols are defined as, for the most part.
-    pub(super) fn assumed(&self, world: &mut World) -> Result<Vec<(Expr, Expr)>, Obstacle> {
-        let mut stated = Stated::default();
-        self.add_assumed(world, &mut stated)?;
-        Ok(stated.equal)
-    }
-
-    fn add_assumed(&self, world: &mut World, stated: &mut Stated) -> Result<(), Obstacle> {
-        self.scope().assume.iter().try_for_each(|text| self.add_text(world, text, stated))
-    }
-
-    fn add_text(&self, world: &mut World, text: &Spanned<String>, stated: &mut Stated) -> Result<(), Obstacle> {
-        let tree = Formula::new(&text.value).tree.map_err(|e| broken(text, &e))?;
-        let statement = semantics::statement(&tree, None).map_err(|e| unclear(text, &e))?;
-        for clause in &statement.clauses {
-            self.add_clause(world, self.scope(), clause, stated).map_err(|e| unclear(text, &e))?;
-        }
-        Ok(())
-    }
-
-    /// Adds what an equation states, as corrected where it has a correction.
-    fn add_equation(
-        &self,
-        world: &mut World,
-        reference: &Spanned<String>,
-        stated: &mut Stated,
-    ) -> Result<(), Obstacle> {
-        let obstacle =
-            |message: String| Obstacle::Premise(format!("({})", reference.value), message, reference.span.clone());
-        let (index, part) =
-            self.book.find(&reference.value).ok_or_else(|| obstacle("there is no such equation".into()))?;
-        let statement = self.book.statement(index, Version::Corrected).map_err(|u| obstacle(unclear_text(&u)))?;
-        let scope = &self.book.entries[index].scope;
-        // What continues an earlier chain states its last side to equal the chain's first.
-        let head = statement.clauses.first().filter(|c| c.continued).and(statement.head.clone());
-        for clause in statement.clauses.iter().filter(|c| part.is_none_or(|p| c.part == p)) {
-            let mut clause = clause.clone();
-            if let (true, Some(head)) = (clause.continued, &head) {
-                clause.lhs = head.clone();
-            }
-            self.add_clause(world, scope, &clause, stated).map_err(|e| obstacle(with_help(&e)))?;
-        }
-        Ok(())
-    }
-
-    /// Adds what a clause states, where it is an equation or says what is greater.
-    fn add_clause(&self, world: &mut World, scope: &Scope, clause: &Clause, stated: &mut Stated) -> Result<(), Error> {
-        let ordered = matches!(clause.rel, Rel::Lt | Rel::Le | Rel::Gt | Rel::Ge);
-        let equal = matches!(clause.rel, Rel::Eq | Rel::Equiv | Rel::Implies) || semantics::is_geometric(clause.rel);
-        if !ordered && !equal {
-            return Ok(());
-        }
-        let link = semantics::understand(world, scope, clause, true)?;
-        let constant = clause.rhs == Side::Constant;
-        for pair in self::pairs(world, &link, constant) {
-            if ordered {
-                stated.ordered.push((clause.rel, pair.residual));
-                continue;
-            }
-            let stands = (pair.lhs, pair.rhs);
-            stated.equal.push(stands);
-            let rates = in_time(world, pair).into_iter().filter(|pair| !pair.start);
-            stated.equal.extend(rates.map(|pair| (pair.lhs, pair.rhs)).filter(|rate| *rate != stands));
-        }
-        Ok(())
-    }
-
-    /// The clauses of the equations that this one is said to solve.
-    pub fn solved(&self) -> Result<Vec<(Clause, &'b Scope)>, Obstacle> {
-        let mut clauses = Vec::new();
-        for reference in self.book.entries[self.index].list(|a| &a.solves) {
-            let obstacle =
-                |message: String| Obstacle::Premise(format!("({})", reference.value), message, reference.span.clone());
-            let (index, part) =
-                self.book.find(&reference.value).ok_or_else(|| obstacle("there is no such equation".into()))?;
-            let statement = self.book.statement(index, Version::Corrected).map_err(|u| obstacle(unclear_text(&u)))?;
-            let scope = self.book.entries[index].scope.as_ref();
-            let head = statement.head.clone();
-            for mut clause in statement.clauses {
-                if part.is_some_and(|p| clause.part != p) {
-                    continue;
-                }
-                if let (true, Some(head)) = (clause.continued, &head) {
-                    clause.lhs = head.clone();
-                }
-                clauses.push((clause, scope));
-            }
-        }
-        Ok(clauses)
     }
 
     /// A symbol named in an annotation; a family's as a tuple.
@@ -352,9 +302,9 @@ impl<'b> Source<'b> {
     }
 
     fn condition(&self, world: &mut World) -> Result<Option<(Rel, Expr, Expr)>, Obstacle> {
-        let Some(text) = self.book.entries[self.index].annotation().and_then(|a| a.iff.as_ref()) else {
-            return Ok(None);
-        };
+        let Some(annotation) = self.book.entries[self.index].annotation() else { return Ok(None) };
+        let of_link = annotation.link.iter().find(|l| self.link.is_some_and(|k| k + 1 == l.number));
+        let Some(text) = of_link.and_then(|l| l.iff.as_ref()).or(annotation.iff.as_ref()) else { return Ok(None) };
         let obstacle = |message: String| Obstacle::Premise(text.value.clone(), message, text.span.clone());
         let tree = Formula::new(&text.value).tree.map_err(|e| broken(text, &e))?;
         let statement = semantics::statement(&tree, None).map_err(|e| unclear(text, &e))?;
@@ -401,16 +351,16 @@ impl<'b> Source<'b> {
 }
 
 /// LaTeX in an annotation that cannot be read.
-fn broken(text: &Spanned<String>, error: &ParseError) -> Obstacle {
+pub(super) fn broken(text: &Spanned<String>, error: &ParseError) -> Obstacle {
     Obstacle::Premise(text.value.clone(), error.message.clone(), text.place(error.span.clone()))
 }
 
 /// LaTeX in an annotation that cannot be understood.
-fn unclear(text: &Spanned<String>, error: &Error) -> Obstacle {
+pub(super) fn unclear(text: &Spanned<String>, error: &Error) -> Obstacle {
     Obstacle::Premise(text.value.clone(), with_help(error), text.place(error.span.clone()))
 }
 
-fn with_help(error: &Error) -> String {
+pub(super) fn with_help(error: &Error) -> String {
     match &error.help {
         Some(help) => format!("{} ({help})", error.message),
         None => error.message.clone(),
@@ -481,7 +431,7 @@ fn resolve(world: &mut World, premises: &Premises, branches: &mut [Branch], rel:
 
 /// An equation between integrals along the motion, or differences from its start, as two: what holds for all times is what
 /// holds at the start and has the same rate ever after.
-fn in_time(world: &mut World, pair: Pair) -> Vec<Pair> {
+pub(super) fn in_time(world: &mut World, pair: Pair) -> Vec<Pair> {
     if !world.remembers(pair.lhs) && !world.remembers(pair.rhs) {
         return vec![pair];
     }

@@ -13,8 +13,8 @@ use crate::number::{Df64, Number, Real};
 
 use super::claim::Claim;
 use super::exact;
-use super::judge::Options;
 use super::lost::lost_bits;
+use super::options::Options;
 use super::random::Random;
 use super::sampling::{PairValue, Sampler, no_state_text};
 use super::shrink::shrink;

@@ -8,7 +8,7 @@ use crate::semantics::Clause;
 
 use super::book::{Book, Version};
 use super::claim::{Claim, Obstacle, Source, obstacle_text};
-use super::judge::Options;
+use super::options::Options;
 use super::random::Random;
 use super::sampling::{Sampler, no_state_text, shown};
 use super::verdict::Assignment;

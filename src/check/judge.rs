@@ -1,7 +1,7 @@
 //! The judgement on an equation: each link of its chain is claimed, evaluated and decided; the worst decides.
 
 use std::collections::HashSet;
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use crate::document::Problem;
 use crate::expr::Deadline;
@@ -13,32 +13,13 @@ use super::claim::{Claim, Obstacle, Source, obstacle_text, unclear_text};
 use super::decide;
 use super::general;
 use super::law;
+use super::options::Options;
 use super::order::{self, Measure};
+use super::remark;
+use super::stateless;
 use super::trouble;
+use super::value;
 use super::verdict::{Correction, DimensionStatus, Judgement, LinkJudgement, LostBits, Strength, Verdict};
-
-/// What the checker is asked for.
-#[derive(Clone, Debug)]
-pub struct Options {
-    /// The seed of the states.
-    pub seed: u64,
-    /// The number of states for each link.
-    pub states: usize,
-    /// The precision in bits to decide in, where one is asked for (feature `rug`); otherwise double-double.
-    pub precision: Option<u32>,
-    /// Whether a judgement is to say more than its verdict rests on: certificates of counterexamples (feature `rug`), the
-    /// bits that doubles lose.
-    pub evidence: bool,
-    /// The time that each stage may take for an equation: judging it, judging its correction, trying its mutants,
-    /// searching what was meant. `None` for no limit.
-    pub budget: Option<Duration>,
-}
-
-impl Default for Options {
-    fn default() -> Self {
-        Options { seed: 1, states: 64, precision: None, evidence: true, budget: None }
-    }
-}
 
 /// Judges an equation of a book.
 pub fn judge(book: &Book, index: usize, options: &Options) -> Judgement {
@@ -104,8 +85,8 @@ pub fn blank(book: &Book, index: usize) -> Judgement {
     }
 }
 
-/// A printed misprint that is expected, and mended by a correction that holds, is no surprise, nor is a blank that is
-/// filled by one; anything else that does not hold is.
+/// A misprint that is expected, and mended by a correction that holds, is no surprise, nor is a blank that is filled by
+/// one; anything else that does not hold is.
 fn as_expected(judgement: &Judgement) -> bool {
     let correction_holds = judgement.correction.is_none() || judgement.is_mended();
     match judgement.expect {
@@ -182,7 +163,8 @@ pub fn judge_tree(book: &Book, index: usize, tree: &Node, options: &Options) -> 
 pub(super) fn judge_statement(source: &Source, statement: &Statement, options: &Options) -> Outcome {
     let (book, index, version) = (source.book, source.index, source.version);
     let entry = &book.entries[index];
-    if statement.clauses.is_empty() {
+    let is_statement = entry.annotation().and_then(|a| a.kind.as_ref()).is_some_and(|k| k.value == "statement");
+    if statement.clauses.is_empty() || is_statement && statement.clauses.iter().all(remark::is_remark) {
         return nothing_to_evaluate(entry, version);
     }
     if !entry.list(|a| &a.solves).is_empty() {
@@ -194,21 +176,31 @@ pub(super) fn judge_statement(source: &Source, statement: &Statement, options: &
         let source = &source.at(k);
         if defines(book, index, clause) {
             links.push(match source.claim(clause, &entry.scope, &known) {
-                Ok(_) => definition(clause),
-                Err(obstacle) => obstructed(unjudged(clause), source, clause, &obstacle),
+                Ok(_) => LinkJudgement::definition(clause.latex()),
+                Err(obstacle) => obstructed(LinkJudgement::unjudged(clause.latex()), source, clause, &obstacle),
             });
             known.push(clause.clone());
         } else {
             let link = judge_link(source, clause, &entry.scope, &known, options);
             let equality = matches!(clause.rel, Rel::Eq | Rel::Equiv) || semantics::is_geometric(clause.rel);
-            if equality && kind(book, index) == "law" && link.verdict != Verdict::Holds {
-                links.push(taken_as_law(link, source, clause, &known, options));
+            if link.verdict == Verdict::Definition {
+                known.push(Clause { rel: Rel::Eq, ..clause.clone() });
+                links.push(link);
+            } else if equality && kind(book, index) == "law" && link.verdict != Verdict::Holds {
+                links.push(law::taken(link, source, clause, &known, options));
                 known.push(clause.clone());
             } else {
                 links.push(link);
             }
         }
     }
+    links.extend(
+        statement
+            .bare
+            .iter()
+            .filter(|bare| !stateless::is_remark(&entry.scope, bare))
+            .map(|bare| stateless::undecided(source, bare)),
+    );
     Outcome::of(links)
 }
 
@@ -224,24 +216,6 @@ fn nothing_to_evaluate(entry: &Entry, version: Version) -> Outcome {
             let problem = trouble::equation(entry, version, reason);
             Outcome::without_links(Verdict::Undecided, reason.into(), Some(problem))
         }
-    }
-}
-
-/// A law that does not follow from its premises is taken as given, if any state satisfies it together with them.
-fn taken_as_law(
-    link: LinkJudgement,
-    source: &Source,
-    clause: &Clause,
-    known: &[Clause],
-    options: &Options,
-) -> LinkJudgement {
-    match law::satisfying_states(source, clause, known, options) {
-        Ok(0) => LinkJudgement { reason: Some("a law that no state satisfies".into()), ..link },
-        Ok(states) => {
-            let reason = Some("a law: taken as given, and there are states that satisfy it".into());
-            LinkJudgement { states, reason, ..definition(clause) }
-        }
-        Err(_) => link,
     }
 }
 
@@ -268,9 +242,14 @@ fn judge_solution(source: &Source, clauses: &[Clause], options: &Options) -> Out
             Ok(None) => None,
             Ok(Some(defect)) => {
                 let (verdict, strength) = (Verdict::Fails, Some(Strength::Numeric));
-                Some(LinkJudgement { verdict, strength, reason: Some(defect), ..unjudged(clause) })
+                Some(LinkJudgement {
+                    verdict,
+                    strength,
+                    reason: Some(defect),
+                    ..LinkJudgement::unjudged(clause.latex())
+                })
             }
-            Err(obstacle) => Some(obstructed(unjudged(clause), source, clause, &obstacle)),
+            Err(obstacle) => Some(obstructed(LinkJudgement::unjudged(clause.latex()), source, clause, &obstacle)),
         };
         links.extend(generality);
     }
@@ -284,7 +263,7 @@ fn worst(links: &[LinkJudgement]) -> Verdict {
 /// Whether a clause introduces a symbol: one side is a declared symbol that neither an earlier equation nor a premise
 /// mentions.
 pub(super) fn defines(book: &Book, index: usize, clause: &Clause) -> bool {
-    if !matches!(clause.rel, Rel::Eq | Rel::Equiv) {
+    if !matches!(clause.rel, Rel::Eq | Rel::Equiv) || value::is_value(book, index) {
         return false;
     }
     let entry = &book.entries[index];
@@ -320,30 +299,6 @@ pub(super) fn defines(book: &Book, index: usize, clause: &Clause) -> bool {
     !clause.continued && !approximation && (fresh(&clause.lhs) || fresh(rhs)) && apart(&clause.lhs, rhs)
 }
 
-fn definition(clause: &Clause) -> LinkJudgement {
-    LinkJudgement { verdict: Verdict::Definition, ..unjudged(clause) }
-}
-
-/// A judgement on a clause that says nothing yet.
-fn unjudged(clause: &Clause) -> LinkJudgement {
-    LinkJudgement {
-        latex: clause.latex(),
-        verdict: Verdict::Undecided,
-        strength: None,
-        reason: None,
-        residual: None,
-        bits: None,
-        states: 0,
-        failing_states: 0,
-        counterexample: None,
-        order: None,
-        problem: None,
-        exact: None,
-        inexact: None,
-        lost_bits: None,
-    }
-}
-
 /// Judges a link, and says where in the file that lies which it lacks.
 pub(super) fn judge_link(
     source: &Source,
@@ -364,10 +319,12 @@ pub(super) fn judge_link(
 }
 
 fn link_verdict(source: &Source, clause: &Clause, scope: &Scope, known: &[Clause], options: &Options) -> LinkJudgement {
-    let mut judgement = unjudged(clause);
+    let mut judgement = LinkJudgement::unjudged(clause.latex());
     let entry = &source.book.entries[source.index];
+    let printed = value::is_value(source.book, source.index).then(|| value::printed(entry, clause)).flatten();
     let small = entry.annotation().is_some_and(|a| a.small.is_some());
     let mapped = match clause.rel {
+        _ if printed.is_some() => Clause { rel: Rel::Eq, ..clause.clone() },
         // With a small parameter an arrow leads to the limit, and only what is said to be near is near.
         Rel::To if small && entry.annotation().is_some_and(|a| a.maps.is_none()) => {
             Clause { rel: Rel::Eq, ..clause.clone() }
@@ -391,12 +348,27 @@ fn link_verdict(source: &Source, clause: &Clause, scope: &Scope, known: &[Clause
     };
     match source.claim(&mapped, scope, known) {
         Err(obstacle) => obstructed(judgement, source, clause, &obstacle),
-        Ok(claim) => evaluate(judgement, claim, clause.rel, source, options),
+        Ok(claim) => match printed.filter(|p| !p.is_arithmetic()) {
+            Some(printed) => value::judge(judgement, source, clause, &printed, claim, options),
+            None => evaluate(judgement, claim, clause.rel, source, options),
+        },
     }
 }
 
 /// Evaluates a claim that is made by a link with the relation `printed`.
 fn evaluate(judgement: LinkJudgement, claim: Claim, printed: Rel, source: &Source, options: &Options) -> LinkJudgement {
+    let restated = claim.restated;
+    let judged = by_relation(judgement, claim, printed, source, options);
+    LinkJudgement { restated: restated && judged.verdict == Verdict::Holds, ..judged }
+}
+
+fn by_relation(
+    judgement: LinkJudgement,
+    claim: Claim,
+    printed: Rel,
+    source: &Source,
+    options: &Options,
+) -> LinkJudgement {
     let entry = &source.book.entries[source.index];
     let name = format!("{}/{}", entry.equation.label, judgement.latex);
     let near = |clause: &Clause| matches!(clause.rel, Rel::Approx | Rel::To);

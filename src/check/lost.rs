@@ -52,8 +52,9 @@ fn lost_by(side: usize, rough: &[f64], fine: &[Tracked<Df64>]) -> Option<f64> {
 mod tests {
     use std::path::Path;
 
+    use crate::check::Options;
     use crate::check::book::Book;
-    use crate::check::judge::{Options, judge};
+    use crate::check::judge::judge;
 
     fn lost(equation: &str) -> Option<(f64, f64)> {
         let text = format!(

@@ -8,7 +8,7 @@ use crate::expr::{SymId, Workspace};
 use crate::number::{Df64, Number, Real};
 
 use super::claim::Claim;
-use super::judge::Options;
+use super::options::Options;
 use super::random::{Decimal, Random};
 use super::sampling::{Sampler, no_state_text};
 use super::system::State;

@@ -32,6 +32,8 @@ type SampledState = (Vec<Tracked<Df64>>, Vec<Sized>, Vec<Sized>);
 const STATES: usize = 24;
 /// The states that are tried for them: at some the sides may be no numbers.
 const TRIES: usize = 4 * STATES;
+/// The states at which a relation of order has to hold together with the one that it follows from.
+const IMPLICATIONS: usize = 4 * STATES;
 
 /// A number with the sum of the magnitudes of the terms it is made of.
 type Sized = (Tracked<Df64>, Tracked<Df64>);
@@ -95,6 +97,48 @@ pub fn same(source: &Source, a: &Clause, b: &Clause, random: &Random) -> bool {
         |es: &[Expr]| -> Vec<Expr> { es.iter().map(|e| premises.resolve(&mut world.graph, *e)).collect() };
     let (left, right) = (resolved(&left), resolved(&right));
     compare(&mut world, &left, &right, ordered, false, random.clone())
+}
+
+/// Whether a relation of order follows from another one alone, at whatever values of the symbols in their ranges: `2a > b`
+/// from `a > b`. What follows from what is true is true as well, and no check can refuse it.
+pub fn follows(source: &Source, a: &Clause, b: &Clause, random: &Random) -> bool {
+    if !is_ordered(a.rel) || !is_ordered(b.rel) {
+        return false;
+    }
+    let scope = &source.book.entries[source.index].scope;
+    let mut world = World::until(source.deadline);
+    Elaborator::new(&mut world, scope, Vec::new(), true).build_bases();
+    let (Some(left), Some(right)) = (residuals(source, &mut world, a), residuals(source, &mut world, b)) else {
+        return false;
+    };
+    let mut random = random.clone();
+    let mut seen = 0;
+    for _ in 0..4 * TRIES {
+        let draws = Random::new(random.next(), "implication");
+        let Some(sample) = sampled(&mut world, &left, &right, draws) else { return false };
+        for (_, own, other) in &sample.states {
+            if own.iter().all(|x| satisfied(a.rel, x)) {
+                seen += 1;
+                if !other.iter().all(|x| satisfied(b.rel, x)) {
+                    return false;
+                }
+            }
+        }
+        if seen >= IMPLICATIONS {
+            return true;
+        }
+    }
+    false
+}
+
+fn is_ordered(rel: Rel) -> bool {
+    matches!(rel, Rel::Lt | Rel::Le | Rel::Gt | Rel::Ge)
+}
+
+/// Whether a residual has the sign that a relation of order asks for, as far as it can be told.
+fn satisfied(rel: Rel, x: &Sized) -> bool {
+    is_zero(x) && matches!(rel, Rel::Le | Rel::Ge)
+        || sure(x) && matches!(rel, Rel::Lt | Rel::Le) == (x.0.to_f64() < 0.0)
 }
 
 /// Whether a side of a clause is 0, and the other one as well at random states of independent symbols.

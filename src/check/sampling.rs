@@ -207,8 +207,11 @@ fn restricting(claim: &mut Claim, targets: &[Expr]) -> Vec<Expr> {
     let graph = &mut claim.world.graph;
     let all: Vec<Expr> = targets.iter().chain(&claim.premises.residuals).copied().collect();
     let known = graph.symbols(&all);
-    let related: Vec<_> =
-        claim.ordered.iter().filter(|(_, e)| !graph.symbols(&[*e]).is_disjoint(&known)).copied().collect();
+    let is_related = |e: Expr| {
+        let symbols = graph.symbols(&[e]);
+        symbols.is_empty() || !symbols.is_disjoint(&known)
+    };
+    let related: Vec<_> = claim.ordered.iter().filter(|(_, e)| is_related(*e)).copied().collect();
     let positive = |(rel, e)| if matches!(rel, Rel::Lt | Rel::Le) { graph.neg(e) } else { e };
     related.into_iter().map(positive).collect()
 }

@@ -13,7 +13,7 @@ use crate::semantics::{self, Clause, Side};
 
 use super::book::{Book, Version};
 use super::claim::{Claim, Related, Source};
-use super::judge::Options;
+use super::options::Options;
 use super::random::{Random, draw};
 use super::sampling::Sampler;
 use super::system::source;
@@ -82,7 +82,7 @@ impl<'b> Screen<'b> {
         let source = Source::new(book, index, version).until(Deadline::after(options.budget));
         let entry = &book.entries[index];
         let claim = source.claim_of(clauses, &entry.scope, known, related).ok();
-        let mut claim = claim.filter(|c| c.small.is_none() && c.condition.is_none())?;
+        let mut claim = claim.filter(|c| c.small.is_none() && !c.partial && c.condition.is_none())?;
         let mut random = Random::new(options.seed, &format!("{}/screen", entry.equation.label));
         let sampler = Sampler::new(&mut claim, &mut random, &[]).ok()?;
         let states = sampler.states(STATES, &mut random, &BTreeMap::new()).ok()?;
@@ -125,7 +125,7 @@ impl<'b> Screen<'b> {
     /// A side's scalars: instance by instance, component by component.
     fn expressions(&mut self, left: &Node, right: &Side, of_left: bool) -> Option<Vec<Expr>> {
         let rhs = right.clone();
-        let clause = Clause { lhs: left.clone(), rel: Rel::Eq, rhs, part: 1, continued: false };
+        let clause = Clause { lhs: left.clone(), rel: Rel::Eq, rhs, part: 1, continued: false, when: Vec::new() };
         let scope = &self.source.book.entries[self.source.index].scope;
         let world = &mut self.claim.world;
         let link = semantics::understand(world, scope, &clause, true).ok().filter(|_| !branches(&clause))?;

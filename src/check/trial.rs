@@ -15,11 +15,13 @@ use crate::semantics::{self, Clause, ErrorKind, Side, Statement, World};
 use super::book::{Book, Version};
 use super::claim::{Claim, Source, pairs};
 use super::decide::{Finding, findings};
-use super::judge::{Options, defines, judge_link, judge_statement};
+use super::judge::{defines, judge_link, judge_statement};
+use super::options::Options;
 use super::random::{Random, draw};
 use super::sameness;
 use super::sampling::{PairValue, Sampler};
 use super::system::source;
+use super::value;
 use super::verdict::{LinkJudgement, Strength, Verdict};
 
 /// The number of solved states that are kept for each link. A wrong formula mostly fails at the first.
@@ -96,7 +98,7 @@ impl<'b> Trial<'b> {
             let bench =
                 (verdict != Verdict::Definition).then(|| Bench::new(&source.at(k), clause, &known, options)).flatten();
             if verdict == Verdict::Definition {
-                known.push(clause.clone());
+                known.push(known_by(clause));
             }
             prepared.push(Link { verdict, bench });
         }
@@ -175,6 +177,18 @@ impl<'b> Trial<'b> {
             return true;
         }
         self.same_clauses(&self.statement.clauses, &statement.clauses)
+    }
+
+    /// Whether a formula says no more than the original: its clauses are the same, or relations of order that follow from
+    /// those of the original.
+    pub fn is_weaker(&self, tree: &Node) -> bool {
+        let Ok(statement) = self.source.book.statement_of(self.source.index, tree) else { return false };
+        let random = self.random();
+        let (own, other) = (&self.statement.clauses, &statement.clauses);
+        let weaker = |(a, b): (&Clause, &Clause)| {
+            a == b || sameness::same(&self.source, a, b, &random) || sameness::follows(&self.source, a, b, &random)
+        };
+        own.len() == other.len() && own.iter().zip(other).all(weaker)
     }
 
     /// Whether two formulas in the place of the original say the same as each other.
@@ -281,7 +295,7 @@ impl<'b> Trial<'b> {
         }
         let definitions = self.links.iter().zip(&statement.clauses).take(k);
         let known: Vec<Clause> =
-            definitions.filter(|(l, _)| l.verdict == Verdict::Definition).map(|(_, c)| c.clone()).collect();
+            definitions.filter(|(l, _)| l.verdict == Verdict::Definition).map(|(_, c)| known_by(c)).collect();
         self.with_rising_states(&mut |options| {
             let judged = judge_link(&self.source.at(k), clause, &entry.scope, &known, options);
             (judged.verdict, judged.strength)
@@ -325,6 +339,12 @@ fn outcome((verdict, strength): (Verdict, Option<Strength>)) -> Outcome {
     }
 }
 
+/// What a definition lets the links behind it know; of a datum `J \sim 0.''2`, that the sides are equal.
+fn known_by(clause: &Clause) -> Clause {
+    let rel = if matches!(clause.rel, Rel::Sim | Rel::Approx | Rel::Cong) { Rel::Eq } else { clause.rel };
+    Clause { rel, ..clause.clone() }
+}
+
 /// Whether a clause makes sense by itself.
 fn understood(source: &Source, clause: &Clause) -> Result<(), ErrorKind> {
     let scope = &source.book.entries[source.index].scope;
@@ -338,8 +358,12 @@ impl Bench {
         if !matches!(clause.rel, Rel::Eq | Rel::Equiv | Rel::Implies) || has_branches(&clause) {
             return None;
         }
+        // A rounded value agrees without being equal.
+        if value::is_value(source.book, source.index) {
+            return None;
+        }
         let entry = &source.book.entries[source.index];
-        let mut claim = source.claim(&clause, &entry.scope, known).ok().filter(|c| c.small.is_none())?;
+        let mut claim = source.claim(&clause, &entry.scope, known).ok().filter(|c| c.small.is_none() && !c.partial)?;
         let mut random = Random::new(options.seed, &format!("{}/trial", entry.equation.label));
         let sampler = Sampler::new(&mut claim, &mut random, &[]).ok()?;
         let states = sampler.states(STATES, &mut random, &BTreeMap::new()).ok()?;

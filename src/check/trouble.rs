@@ -98,6 +98,11 @@ pub fn link(entry: &Entry, version: Version, clause: &Clause, message: &str) -> 
     Problem::error("kenzan::undecided", message, span)
 }
 
+/// A part of an equation that cannot be judged.
+pub fn part(entry: &Entry, version: Version, part: &Span, message: &str) -> Problem {
+    Problem::error("kenzan::undecided", message, first_line(entry, version, part))
+}
+
 /// An equation whose verdict lacks something that has no place of its own.
 pub fn equation(entry: &Entry, version: Version, message: &str) -> Problem {
     Problem::error("kenzan::undecided", message, whole(entry, version))

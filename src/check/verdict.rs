@@ -262,6 +262,36 @@ pub struct LinkJudgement {
     pub inexact: Option<String>,
     /// What the side that is worse in doubles loses, for an equality.
     pub lost_bits: Option<LostBits>,
+    /// Whether it holds because a premise says the same in as many terms.
+    pub restated: bool,
+}
+
+impl LinkJudgement {
+    /// Of a link, given by its LaTeX, of which nothing is said yet.
+    pub fn unjudged(latex: String) -> Self {
+        LinkJudgement {
+            latex,
+            verdict: Verdict::Undecided,
+            strength: None,
+            reason: None,
+            residual: None,
+            bits: None,
+            states: 0,
+            failing_states: 0,
+            counterexample: None,
+            order: None,
+            problem: None,
+            exact: None,
+            inexact: None,
+            lost_bits: None,
+            restated: false,
+        }
+    }
+
+    /// Of a link that gives something its name.
+    pub fn definition(latex: String) -> Self {
+        LinkJudgement { verdict: Verdict::Definition, ..LinkJudgement::unjudged(latex) }
+    }
 }
 
 /// The formula that should have been printed, with the judgement on it.
@@ -289,6 +319,8 @@ pub struct Sensitivity {
     pub total: usize,
     /// The mutants among them that say the same as the formula, by a rule that does not rest on the check.
     pub equivalent: usize,
+    /// The inequalities among them that follow from the formula by themselves: they are true where it is.
+    pub weaker: usize,
     /// The mutants that neither fail nor hold: the premises have no solution at which they can be evaluated.
     pub undecided: usize,
     /// The mutants that pass and say something else: the edit in words and what it gives.
@@ -397,9 +429,19 @@ impl Judgement {
         problems
     }
 
-    /// A failing equation whose correction holds.
+    /// Whether all that holds of these links is what a premise says in as many terms: that they hold shows nothing.
+    pub fn only_restates(links: &[LinkJudgement]) -> bool {
+        let holds = |link: &&LinkJudgement| matches!(link.verdict, Verdict::Holds | Verdict::Asymptotic);
+        let mut holding = links.iter().filter(holds).peekable();
+        holding.peek().is_some() && holding.all(|link| link.restated)
+    }
+
+    /// An equation that fails while its correction holds; or one that the print has lost so much of that it cannot be
+    /// judged, where the annotation expects that and gives a correction that holds.
     pub fn is_erratum(&self) -> bool {
-        self.verdict == Verdict::Fails && self.is_mended()
+        let lost =
+            matches!(self.verdict, Verdict::Undecided | Verdict::Unreadable) && self.expect == Some(self.verdict);
+        (self.verdict == Verdict::Fails || lost) && self.is_mended()
     }
 
     /// Whether it has a correction that holds.

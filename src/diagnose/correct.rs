@@ -20,6 +20,7 @@ use crate::report::marked_words;
 use crate::semantics::{Clause, Scope, Side};
 
 use super::change::{Change, at};
+use super::dots;
 use super::edits::{Found, Walk};
 use super::lexicon::Lexicon;
 use super::likeness;
@@ -150,6 +151,8 @@ impl<'b> Search<'b> {
             }
             all.push(change.clone());
         }
+        let dots = changes.iter().filter(|(kind, _)| *kind == EditKind::Dot).map(|(_, change)| change);
+        all.extend(dots::shifted(self.scope(), self.tree, dots));
         all.sort_by_key(|c| c.cost);
         all
     }

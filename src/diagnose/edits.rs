@@ -2,7 +2,7 @@
 
 use crate::latex::ast::{Kind, Node, ProductOp, Sign, Span, Term};
 use crate::latex::to_latex;
-use crate::semantics::{EntryKind, Scope, spelling};
+use crate::semantics::{EntryKind, Scope, is_remainder, spelling};
 
 use super::mutants::{Edit, EditKind, Reach};
 use super::names::{Name, siblings};
@@ -46,6 +46,7 @@ impl<'s> Walk<'s> {
             Kind::Chain { .. } => self.sides(node),
             Kind::Matrix { .. } => self.sides(node),
             Kind::Sum(terms) => self.sum(node, terms),
+            Kind::Juxt(_) if is_remainder(node) => {}
             Kind::Juxt(factors) => self.product(node, factors),
             Kind::Product { .. } => self.operators(node),
             Kind::Frac(above, below) => self.fraction(node, above, below),
@@ -93,7 +94,7 @@ impl<'s> Walk<'s> {
     }
 
     fn sum(&mut self, node: &Node, terms: &[Term]) {
-        for (k, term) in terms.iter().enumerate() {
+        for (k, term) in terms.iter().enumerate().filter(|(_, term)| !is_remainder(&term.node)) {
             let latex = to_latex(&term.node);
             if let Some(sign) = flipped(term.sign) {
                 let mut flipped = terms.to_vec();
@@ -136,7 +137,7 @@ impl<'s> Walk<'s> {
         let units = units(self.scope, factors);
         for (from, to) in &units {
             let unit = &factors[*from..*to];
-            if units.len() > 1 && !acts(&unit[0]) && !is_words(&unit[0]) {
+            if units.len() > 1 && !acts(&unit[0]) && !is_words(&unit[0]) && !states(&unit[0]) {
                 let rest: Vec<Node> = factors[..*from].iter().chain(&factors[*to..]).cloned().collect();
                 let text = format!("the factor `{}` dropped", to_latex(&juxt(unit, &node.span)));
                 let span = unit[0].span.start..unit[unit.len() - 1].span.end;
@@ -330,6 +331,7 @@ impl<'s> Walk<'s> {
         } else {
             let two = number("2".into());
             others.push(Node::new(Kind::Frac(Box::new(node.clone()), Box::new(two)), node.span.clone()));
+            others.extend(next_digit(digits).map(number));
         }
         for other in others {
             let text = format!("the number {digits} changed to `{}`", to_latex(&other));
@@ -359,7 +361,9 @@ impl<'s> Walk<'s> {
         // Another notation of a symbol that depends on time has dots, too.
         let renamed = matches!(name.entry.kind, EntryKind::Same(_)) && !self.reach.factors.is_empty();
         if name.entry.of_t || name.dots > 0 || renamed {
-            for dots in [name.dots.wrapping_sub(1), name.dots + 1] {
+            // A scan loses both dots of an acceleration.
+            let both = (!self.reach.factors.is_empty()).then_some(name.dots + 2);
+            for dots in [name.dots.wrapping_sub(1), name.dots + 1].into_iter().chain(both) {
                 if dots <= 3 {
                     let new = name.replaced(&name.bare, dots);
                     let text = format!("`{shown}` changed to `{}`", to_latex(&without_power(&new)));
@@ -367,6 +371,24 @@ impl<'s> Walk<'s> {
                 }
             }
         }
+    }
+}
+
+/// A decimal with its last digit one up; from 9 it goes one down.
+fn next_digit(digits: &str) -> Option<String> {
+    let last = digits.chars().last()?.to_digit(10)?;
+    let next = if last == 9 { 8 } else { last + 1 };
+    Some(format!("{}{next}", &digits[..digits.len() - 1]))
+}
+
+/// Whether a bracket or a block beside others is a statement and no factor: `f (= g)`.
+fn states(node: &Node) -> bool {
+    match &node.kind {
+        Kind::Chain { .. } => true,
+        Kind::Rows(nodes) | Kind::List(nodes) => nodes.iter().any(states),
+        Kind::Group { body, .. } => states(body),
+        Kind::Matrix { rows, .. } => rows.iter().flatten().any(states),
+        _ => false,
     }
 }
 

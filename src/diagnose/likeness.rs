@@ -3,7 +3,7 @@
 //! | cost | edit |
 //! |---|---|
 //! | 2 | a sign, a dot, a prime; letters that look alike (φ ψ, ω Ω, I l 1, O 0, ν v ...); a bracket |
-//! | 3 | an index; sine and cosine; a power by one; a symbol of the same kind and unit; ½ and 2 |
+//! | 3 | two dots; an index; sine and cosine; a power by one; a symbol of the same kind and unit; ½ and 2 |
 //! | 4 | a dot, a prime, an index or a letter that is gained, where a scan rather loses |
 //! | 5 | another number; a factor of 2; a factor left out; dot and cross |
 //! | 6 | a factor put in, and 1 for each symbol of it beyond the first |
@@ -44,7 +44,10 @@ pub fn cost(scope: &Scope, kind: EditKind, before: &Node, after: &Node) -> u32 {
     let (old, new) = (Name::of(scope, before), Name::of(scope, after));
     match kind {
         EditKind::Sign | EditKind::Bracket => 2,
-        EditKind::Dot => old.zip(new).map_or(2, |(a, b)| if b.dots > a.dots { 2 } else { 4 }),
+        EditKind::Dot => old.zip(new).map_or(2, |(a, b)| match b.dots.checked_sub(a.dots) {
+            Some(more) if more > 0 => 1 + u32::from(more),
+            _ => 4,
+        }),
         EditKind::Prime => old.zip(new).map_or(2, |(a, b)| if primes(&b.bare) > primes(&a.bare) { 2 } else { 4 }),
         EditKind::Symbol => old.zip(new).map_or(3, |(a, b)| if look_alike(&a.bare, &b.bare) { 2 } else { 4 }),
         EditKind::Index | EditKind::Function | EditKind::Power => 3,

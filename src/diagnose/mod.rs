@@ -6,6 +6,7 @@
 
 mod change;
 pub mod correct;
+mod dots;
 mod edits;
 mod lexicon;
 mod likeness;

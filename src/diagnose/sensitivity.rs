@@ -19,6 +19,8 @@ pub struct Tried {
     pub outcome: Outcome,
     /// Whether it says the same as the formula.
     pub equivalent: bool,
+    /// Whether it is an inequality that says less than the formula.
+    pub weaker: bool,
 }
 
 /// The version of an equation that holds, with its links: as printed, or else as corrected.
@@ -44,7 +46,8 @@ pub fn try_mutants(book: &Book, index: usize, judgement: &Judgement, options: &O
         let outcome = trial.judge(&mutant.tree);
         let equivalent = outcome == Outcome::Holds
             && (trial.is_equivalent(&mutant.tree) || synonyms.unify(tree) == synonyms.unify(&mutant.tree));
-        Tried { mutant, outcome, equivalent }
+        let weaker = outcome == Outcome::Holds && !equivalent && trial.is_weaker(&mutant.tree);
+        Tried { mutant, outcome, equivalent, weaker }
     });
     Some(tried.collect())
 }
@@ -58,6 +61,7 @@ pub fn sensitivity(book: &Book, index: usize, judgement: &Judgement, options: &O
             Outcome::Fails | Outcome::Misshapen => result.killed += 1,
             Outcome::Undecided => result.undecided += 1,
             Outcome::Holds if tried.equivalent => result.equivalent += 1,
+            Outcome::Holds if tried.weaker => result.weaker += 1,
             Outcome::Holds => result.survivors.push(tried.mutant.edit.text),
         }
         result.total += 1;

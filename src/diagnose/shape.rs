@@ -133,8 +133,12 @@ pub fn times(factor: &Node, node: &Node) -> Node {
     Node::new(Kind::Juxt(all), node.span.clone())
 }
 
+/// The node without a power; a mark in brackets above a name, `f^{(e)}`, is none.
 pub fn without_power(node: &Node) -> Node {
     match &node.kind {
+        Kind::Scripts { sup: Some(sup), .. } if matches!(sup.kind, Kind::Group { open: Delim::Paren, .. }) => {
+            node.clone()
+        }
         Kind::Scripts { base, primes: 0, sub: None, sup: Some(_) } => (**base).clone(),
         Kind::Scripts { base, primes, sub, sup: Some(_) } => {
             let kind = Kind::Scripts { base: base.clone(), primes: *primes, sub: sub.clone(), sup: None };
@@ -152,7 +156,7 @@ pub fn with_power(node: &Node, power: u32) -> Node {
     }
     let sup = Some(Box::new(Node::new(Kind::Number(power.to_string()), node.span.clone())));
     let kind = match bare.kind {
-        Kind::Scripts { base, primes, sub, .. } => Kind::Scripts { base, primes, sub, sup },
+        Kind::Scripts { base, primes, sub, sup: None } => Kind::Scripts { base, primes, sub, sup },
         _ => Kind::Scripts { base: Box::new(bare), primes: 0, sub: None, sup },
     };
     Node::new(kind, node.span.clone())

@@ -14,7 +14,7 @@
 //! [`prefix`](super::Equation::prefix). Rows of an `aligned` with an empty label belong to the
 //! label below, `rows = ["", "", "411", "", "412"]`. An annotation with no other key than `rows` belongs to none of them.
 //!
-//! `[link.2]` with `given` or `where` holds premises of the second link alone (of a chain a = b = c, b = c). What follows from
+//! `[link.2]` with `given`, `where` or `iff` is about the second link alone (of a chain a = b = c, b = c). What follows from
 //! no law should be judged without it: with dω/dt = 0 given, I dω/dt = d(Iω)/dt would hold whatever the factors.
 
 use super::declaration::{KEYS as DECLARATION_KEYS, SymbolDeclaration, symbols};
@@ -48,6 +48,8 @@ pub struct EquationAnnotation {
     pub range: Vec<(Spanned<String>, [f64; 2])>,
     /// An approximation's small parameter.
     pub small: Option<Spanned<String>>,
+    /// The angles of a Fourier series of which some terms are printed.
+    pub harmonics: Vec<Spanned<String>>,
     /// The order of an approximation's residual in the small parameter.
     pub order: Option<f64>,
     /// The statement that it is equivalent to.
@@ -85,10 +87,12 @@ pub struct LinkPremises {
     pub given: Vec<Spanned<String>>,
     /// `where`: premises that the prose states.
     pub where_: Vec<Spanned<String>>,
+    /// The statement that the link is equivalent to.
+    pub iff: Option<Spanned<String>>,
 }
 
 /// The keys of an equation's annotation, those of declarations not included.
-pub const KEYS: [&str; 22] = [
+pub const KEYS: [&str; 23] = [
     "label",
     "for",
     "kind",
@@ -100,6 +104,7 @@ pub const KEYS: [&str; 22] = [
     "link",
     "range",
     "small",
+    "harmonics",
     "order",
     "iff",
     "maps",
@@ -171,6 +176,7 @@ pub(super) fn equation(table: &Table, span: Span, reader: &mut Reader) -> Equati
             "where" => found.where_ = reader.texts(key, value),
             "link" => found.link = links(key, value, reader),
             "range" => found.range = ranges(key, value, reader),
+            "harmonics" => found.harmonics = reader.texts(key, value),
             "small" => found.small = reader.text(key, value),
             "order" => found.order = reader.number(key, value),
             "iff" => found.iff = reader.text(key, value),
@@ -220,7 +226,8 @@ fn links(key: &Spanned<String>, value: &Value, reader: &mut Reader) -> Vec<LinkP
             match key.value.as_str() {
                 "given" => premises.given = reader.texts(key, value),
                 "where" => premises.where_ = reader.texts(key, value),
-                _ => reader.unknown(key, "a link", &["given", "where"]),
+                "iff" => premises.iff = reader.text(key, value),
+                _ => reader.unknown(key, "a link", &["given", "where", "iff"]),
             }
         }
         found.push(premises);

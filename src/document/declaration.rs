@@ -4,6 +4,8 @@
 //! assume = ['\theta > 0']          # LaTeX premises that hold in the section
 //! natural_units = true            # no constant has a dimension here: dimensions are not checked
 //! modulus = 'k'                   # of elliptic functions that are printed without one
+//! cyclic = ['i, j, k', 'A, B, C']    # what goes round together in a cyclic sum
+//! canonical = { L = '\ell', G = 'g' }    # Poisson brackets: each momentum with its coordinate
 //! [symbols]
 //! 'I_0, I_1' = { unit = "kg m^2", range = [0.3, 3.0] }
 //! '\theta'   = { unit = "rad", of = "t", range = [0.2, 1.4] }
@@ -36,6 +38,10 @@ pub struct Declarations {
     pub natural_units: Option<bool>,
     /// The LaTeX of the modulus k of elliptic functions that are printed without one.
     pub modulus: Option<Spanned<String>>,
+    /// The LaTeX of the triples that go round together in cyclic sums.
+    pub cyclic: Vec<[Spanned<String>; 3]>,
+    /// The LaTeX of the canonical variables of Poisson brackets: each momentum with its coordinate.
+    pub canonical: Vec<(Spanned<String>, Spanned<String>)>,
 }
 
 /// What one or several symbols are.
@@ -59,6 +65,8 @@ pub struct SymbolDeclaration {
     pub each: Vec<Spanned<String>>,
     /// It is an index, and runs from the first to the second number.
     pub index: Option<[i64; 2]>,
+    /// The distance between the values of an index: 2 for a sign, from -1 to 1.
+    pub step: Option<usize>,
     /// It is a function, with these arguments.
     pub function: Option<Arguments>,
     /// It is another notation for this symbol.
@@ -103,9 +111,9 @@ pub struct BasisDeclaration {
     pub span: Span,
 }
 
-pub(super) const KEYS: [&str; 5] = ["symbols", "basis", "assume", "natural_units", "modulus"];
+pub(super) const KEYS: [&str; 7] = ["symbols", "basis", "assume", "natural_units", "modulus", "cyclic", "canonical"];
 
-const SYMBOL_KEYS: [&str; 13] = [
+const SYMBOL_KEYS: [&str; 14] = [
     "unit",
     "range",
     "of",
@@ -114,6 +122,7 @@ const SYMBOL_KEYS: [&str; 13] = [
     "basis",
     "each",
     "index",
+    "step",
     "function",
     "same",
     "component_of",
@@ -133,10 +142,31 @@ pub(super) fn declarations(table: &Table, span: Span, reader: &mut Reader) -> De
             "assume" => found.assume = reader.texts(key, value),
             "natural_units" => found.natural_units = Some(reader.bool(key, value)),
             "modulus" => found.modulus = reader.text(key, value),
+            "cyclic" => {
+                let triples = reader.texts(key, value);
+                found.cyclic = triples.iter().filter_map(|text| triple(text, reader)).collect();
+            }
+            "canonical" => {
+                let pairs = reader.table(key, value, r"canonical = { L = '\ell' }");
+                found.canonical = pairs.iter().filter_map(|(p, q)| Some((p.clone(), reader.text(p, q)?))).collect();
+            }
             _ => {}
         }
     }
     found
+}
+
+/// Three names, split at commas.
+fn triple(text: &Spanned<String>, reader: &mut Reader) -> Option<[Spanned<String>; 3]> {
+    let names = split_at_commas(text);
+    let count = names.len();
+    let triple = names.try_into().ok();
+    if triple.is_none() {
+        let message = format!("three names go round, and not {count}");
+        let problem = Problem::error("document::cyclic", message, text.span.clone());
+        reader.problems.push(problem.help("for example: cyclic = ['i, j, k', 'A, B, C']"));
+    }
+    triple
 }
 
 /// Reads `[symbols]`.
@@ -163,6 +193,7 @@ fn symbol(name: &Spanned<String>, value: &Value, reader: &mut Reader) -> SymbolD
             "basis" => symbol.basis = reader.text(key, value),
             "each" => symbol.each = reader.texts(key, value),
             "index" => symbol.index = reader.index_range(key, value),
+            "step" => symbol.step = reader.count(key, value),
             "function" => symbol.function = arguments(key, value, reader),
             "same" => symbol.same = reader.text(key, value),
             "component_of" => symbol.component_of = reader.text(key, value),

@@ -4,7 +4,7 @@
 
 use super::graph::{Expr, Graph, Node, SymId};
 use crate::number::Func;
-use std::collections::HashMap;
+use rustc_hash::FxHashMap as HashMap;
 
 impl Graph {
     /// The partial derivative with respect to a symbol; all other symbols are held fixed.
@@ -49,7 +49,7 @@ impl Graph {
         if self.cut_short().is_some() {
             return vec![zero; es.len()];
         }
-        let mut d: HashMap<Expr, Expr> = HashMap::new();
+        let mut d: HashMap<Expr, Expr> = HashMap::default();
         for e in self.reachable(es) {
             let node = *self.node(e);
             let derivative = match node {

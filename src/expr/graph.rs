@@ -12,7 +12,7 @@
 use super::deadline::{Cut, Deadline};
 use super::ratio::{self, Ratio};
 use crate::number::{Elliptic, Func};
-use std::collections::HashMap;
+use rustc_hash::FxHashMap as HashMap;
 use std::collections::hash_map::Entry;
 
 /// The most nodes of a graph: some 200 MB, a hundred times what notes need.

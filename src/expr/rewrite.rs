@@ -1,7 +1,8 @@
 //! What expressions are made of, and expressions made anew with other parts.
 
 use super::graph::{Expr, Graph, Node, SymId};
-use std::collections::{BTreeSet, HashMap, HashSet};
+use rustc_hash::{FxHashMap as HashMap, FxHashSet as HashSet};
+use std::collections::BTreeSet;
 
 impl Graph {
     /// Everything the expressions are made of, themselves included, operands first.
@@ -27,11 +28,15 @@ impl Graph {
     }
 
     /// The expression with symbols replaced, all at once: what is put in is not itself replaced.
-    pub fn substitute(&mut self, e: Expr, map: &HashMap<SymId, Expr>) -> Expr {
+    pub fn substitute<S: std::hash::BuildHasher>(
+        &mut self,
+        e: Expr,
+        map: &std::collections::HashMap<SymId, Expr, S>,
+    ) -> Expr {
         if self.cut_short().is_some() {
             return e;
         }
-        let mut new: HashMap<Expr, Expr> = HashMap::new();
+        let mut new: HashMap<Expr, Expr> = HashMap::default();
         for old in self.reachable(&[e]) {
             let replaced = match *self.node(old) {
                 Node::Symbol(s) => map.get(&s).copied().unwrap_or(old),

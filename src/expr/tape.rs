@@ -5,7 +5,7 @@
 
 use super::graph::{Expr, Graph, Node, SymId};
 use crate::number::{Dual, Elliptic, Func, Number};
-use std::collections::HashMap;
+use rustc_hash::FxHashMap as HashMap;
 use std::sync::Arc;
 
 /// The slot an operand or result is in.
@@ -199,11 +199,11 @@ impl<'g> Compiler<'g> {
         };
         let sines: HashMap<Expr, Expr> = calls(Func::Sin).collect();
         let both = calls(Func::Cos).filter_map(|(a, cos)| Some((a, (*sines.get(&a)?, cos)))).collect();
-        Compiler { graph, order, slot: HashMap::new(), both, next: 0 }
+        Compiler { graph, order, slot: HashMap::default(), both, next: 0 }
     }
 
     fn compile(mut self, outputs: &[Expr]) -> Tape {
-        let mut constant: HashMap<Expr, bool> = HashMap::new();
+        let mut constant: HashMap<Expr, bool> = HashMap::default();
         let mut inputs = Vec::new();
         for &e in &self.order {
             let node = self.graph.node(e);

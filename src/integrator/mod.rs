@@ -1,4 +1,5 @@
-//! Ordinary differential equations `y' = f(t, y)`: explicit Runge-Kutta methods with fixed and with adaptive steps.
+//! Ordinary differential equations `y' = f(t, y)`: explicit Runge-Kutta methods with fixed and with adaptive steps, and
+//! [Taylor series](taylor) of any order in any number type.
 //!
 //! A method is a [`Tableau`] of coefficients, walked by one stepper ([`RungeKutta`]), so that a new method is a table and
 //! nothing else; every tableau passes the conformance tests of [`runge_kutta`] (its order measured, not only claimed).
@@ -7,6 +8,7 @@
 mod adaptive;
 mod dormand_prince;
 pub mod runge_kutta;
+pub mod taylor;
 
 pub use adaptive::{Adaptive, Outcome, Step};
 pub use dormand_prince::DORMAND_PRINCE_8;

@@ -34,19 +34,37 @@ impl Random {
 }
 
 /// |a - b| ≤ 2^-slack-less bits of the larger one.
-fn close<N: Number>(a: &N, b: &N, lost: f64, what: &str) {
-    let bits = f64::from(N::precision_bits(&a.context())) - spread::<N>();
+fn close<N: Spread>(a: &N, b: &N, lost: f64, what: &str) {
+    let bits = f64::from(N::precision_bits(&a.context())) - N::BITS;
     let scale = a.log2_abs().max(b.log2_abs());
     let difference = a.minus(b).log2_abs();
     assert!(difference <= scale - bits + lost || difference == f64::NEG_INFINITY, "{what}: {a:?} and {b:?}");
 }
 
-/// The bits that enclosures lose beside: the widths of their operands add up where the errors of numbers cancel.
-fn spread<N>() -> f64 {
-    if std::any::type_name::<N>().contains("Interval") { 8.0 } else { 0.0 }
+/// The bits that a type may lose beside what the laws allow for rounding.
+trait Spread: Number {
+    const BITS: f64 = 0.0;
 }
 
-fn field_laws<N: Number>(cx: &N::Context) {
+impl Spread for f64 {}
+impl Spread for Df64 {}
+impl<N: Real> Spread for Tracked<N> {}
+impl<const WIDTH: usize> Spread for Lanes<WIDTH> {}
+impl<N: Spread> Spread for Dual<N> {
+    const BITS: f64 = N::BITS;
+}
+impl<N: Spread> Spread for Jet<N> {
+    const BITS: f64 = N::BITS;
+}
+#[cfg(feature = "rug")]
+impl Spread for Mpfr {}
+/// Enclosures lose more: the widths of their operands add up where the errors of numbers cancel.
+#[cfg(feature = "rug")]
+impl Spread for Interval {
+    const BITS: f64 = 8.0;
+}
+
+fn field_laws<N: Spread>(cx: &N::Context) {
     let mut random = Random::new(1);
     let one = N::from_f64(1.0, cx);
     for _ in 0..200 {
@@ -70,7 +88,7 @@ fn field_laws<N: Number>(cx: &N::Context) {
     }
 }
 
-fn functional_equations<N: Number>(cx: &N::Context) {
+fn functional_equations<N: Spread>(cx: &N::Context) {
     let mut random = Random::new(2);
     let one = N::from_f64(1.0, cx);
     let two = N::from_f64(2.0, cx);
@@ -109,7 +127,7 @@ fn functional_equations<N: Number>(cx: &N::Context) {
     }
 }
 
-fn special_values<N: Number>(cx: &N::Context) {
+fn special_values<N: Spread>(cx: &N::Context) {
     let n = |x: f64| N::from_f64(x, cx);
     let same = |a: &N, b: f64, what: &str| assert_eq!(a.to_f64(), b, "{what}");
     for (base, exponent, power) in [
@@ -179,7 +197,7 @@ fn special_values<N: Number>(cx: &N::Context) {
 }
 
 /// What every number type must pass.
-fn conforms<N: Number>(cx: &N::Context) {
+fn conforms<N: Spread>(cx: &N::Context) {
     field_laws::<N>(cx);
     functional_equations::<N>(cx);
     special_values::<N>(cx);

@@ -37,8 +37,12 @@ pub struct Counts {
     pub undecided: usize,
     /// `unreadable`
     pub unreadable: usize,
-    /// Those that fail while their correction holds.
+    /// Those that fail, or cannot be judged as printed, while their correction holds.
     pub errata: usize,
+    /// Those of them that cannot be judged as printed.
+    pub errata_lost: usize,
+    /// Those that hold, or whose correction does, as a premise says the same in as many terms.
+    pub restated: usize,
     /// Those whose verdict is not as expected.
     pub unexpected: usize,
 }
@@ -55,6 +59,9 @@ impl Counts {
             counts.certified +=
                 usize::from(judgement.verdict == Verdict::Fails && judgement.strength == Some(Strength::Certified));
             counts.errata += usize::from(judgement.is_erratum());
+            counts.errata_lost += usize::from(judgement.is_erratum() && judgement.verdict != Verdict::Fails);
+            let links = judgement.correction.as_ref().map_or(&judgement.links, |c| &c.links);
+            counts.restated += usize::from(Judgement::only_restates(links));
             counts.unexpected += usize::from(!judgement.as_expected);
         }
         counts

@@ -24,6 +24,7 @@ pub(super) fn link(latex: &str, verdict: Verdict) -> LinkJudgement {
         exact: None,
         inexact: None,
         lost_bits: None,
+        restated: false,
     }
 }
 

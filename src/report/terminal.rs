@@ -42,6 +42,22 @@ fn summarize(text: &mut String, document: &DocumentReport, paint: Paint) -> std:
     if counts.certified > 0 {
         writeln!(text, "  certified: {} of {} that fail", counts.certified, counts.fails)?;
     }
+    if counts.restated > 0 {
+        writeln!(
+            text,
+            "  restated: {} only say what one of their premises says: {}",
+            counts.restated,
+            restated(document)
+        )?;
+    }
+    if counts.errata_lost > 0 {
+        let lost = counts.errata_lost;
+        writeln!(
+            text,
+            "  errata: {} with a correction that holds, {lost} of them not to be judged as printed",
+            counts.errata
+        )?;
+    }
     if let Some(dimensions) = dimensions(document) {
         writeln!(text, "  dimensions: {dimensions}")?;
     }
@@ -55,6 +71,15 @@ fn summarize(text: &mut String, document: &DocumentReport, paint: Paint) -> std:
     writeln!(text)
 }
 
+/// The labels of the equations that only say what a premise says: `(9), (135) corrected`
+fn restated(document: &DocumentReport) -> String {
+    let label = |j: &Judgement| match &j.correction {
+        Some(c) => Judgement::only_restates(&c.links).then(|| format!("({}) corrected", one_line(&j.label))),
+        None => Judgement::only_restates(&j.links).then(|| format!("({})", one_line(&j.label))),
+    };
+    document.equations.iter().filter_map(label).collect::<Vec<_>>().join(", ")
+}
+
 /// `71 ok, 8 mismatches, 16 unchecked`
 fn dimensions(document: &DocumentReport) -> Option<String> {
     let count = |status| document.equations.iter().filter(|e| e.dimension == status).count();
@@ -66,7 +91,7 @@ fn dimensions(document: &DocumentReport) -> Option<String> {
 
 /// `✗ 3 fails (1 erratum)`
 fn share(counts: Counts, verdict: Verdict, paint: Paint) -> String {
-    let errata = match (verdict, counts.errata) {
+    let errata = match (verdict, counts.errata - counts.errata_lost) {
         (Verdict::Fails, 1) => " (1 erratum)".to_owned(),
         (Verdict::Fails, n) if n > 1 => format!(" ({n} errata)"),
         _ => String::new(),
@@ -125,7 +150,7 @@ fn mutants(text: &mut String, document: &DocumentReport) -> std::fmt::Result {
         return Ok(());
     }
     let sum = |count: fn(&Sensitivity) -> usize| all.iter().map(|(_, s)| count(s)).sum::<usize>();
-    let (killed, different) = (sum(|s| s.killed), sum(|s| s.total - s.equivalent));
+    let (killed, different) = (sum(|s| s.killed), sum(|s| s.total - s.equivalent - s.weaker));
     writeln!(text, "  {killed} of {different} mutants that say something else fail")?;
     for (j, s) in all.iter().filter(|(_, s)| !s.survivors.is_empty()) {
         let edits: Vec<String> = s.survivors.iter().take(3).map(|e| one_line(e)).collect();

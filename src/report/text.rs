@@ -44,6 +44,9 @@ pub(super) fn exactness(log2_error: i32) -> String {
     format!("false with a chance below 2{}", superscript(log2_error))
 }
 
+/// Of what holds because a premise says the same.
+pub(super) const RESTATED: &str = "as a premise says";
+
 /// What doubles lose: `doubles lose 0.9 bits, at worst 3.1`.
 pub(super) fn lost_bits(lost: LostBits) -> String {
     format!("doubles lose {} bits, at worst {}", lost.mean, lost.worst)

@@ -246,6 +246,7 @@ impl Builder {
         facts.extend(only.and_then(failing_states));
         facts.extend(exactness(j));
         facts.extend(j.lost_bits.map(text::lost_bits));
+        facts.extend(Judgement::only_restates(&j.links).then(|| text::RESTATED.to_owned()));
         let reason = j.reason.as_ref().or_else(|| only.and_then(|l| l.reason.as_ref()));
         Equation {
             anchor: anchor.to_owned(),
@@ -298,6 +299,7 @@ impl Builder {
         facts.extend(failing_states(link));
         facts.extend(link.exact.map(|e| text::exactness(e.log2_error)));
         facts.extend(link.inexact.as_ref().map(|why| format!("not exact: {why}")));
+        facts.extend(link.restated.then(|| text::RESTATED.to_owned()));
         LinkView {
             badge: badge(link.verdict),
             math_html: self.renderer.display(&link.latex),

@@ -48,6 +48,9 @@ pub(super) fn sentence(s: &Sensitivity) -> String {
     if s.equivalent > 0 {
         text.push_str(&format!(", {} say the same", s.equivalent));
     }
+    if s.weaker > 0 {
+        text.push_str(&format!(", {} say less", s.weaker));
+    }
     if s.undecided > 0 {
         text.push_str(&format!(", {} cannot be evaluated", s.undecided));
     }

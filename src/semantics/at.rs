@@ -1,5 +1,5 @@
 //! Values somewhere else: at the start of the motion, `X|_0`, `X|_0^t`; at a value of a symbol, `X|_{x = a}`,
-//! `[X]_{x = a}`; the difference between two values of a symbol, `X|_a^x`.
+//! `X|_{x \to a + x}`, `[X]_{x = a}`; the difference between two values of a symbol, `X|_a^x`.
 
 use std::collections::HashMap;
 
@@ -48,56 +48,84 @@ impl Elaborator<'_> {
         }
     }
 
-    /// A value with another one in the place of a symbol.
+    /// A value where a symbol, or a vector of them, has another value: that value in its place. Where rates stand, what is
+    /// meant is the moment at which the symbol has that value.
     fn at_value(&mut self, body: &Node, name: &Node, place: &Node) -> Result<Typed> {
-        let symbol = self.variable(name)?;
+        let (name, there) = (self.value(name)?, self.value(place)?);
+        let (names, values) = (name.value.components(), there.value.components());
+        let symbols: Option<Vec<SymId>> = names.iter().map(|e| self.symbol_of(*e)).collect();
+        let Some(symbols) = symbols.filter(|symbols| symbols.len() == values.len()) else {
+            let message = "a value is put in for a symbol of its own, of the same shape";
+            return Err(Error::unsupported(message, &place.span));
+        };
         let inner = self.value(body)?;
-        let there = self.value(place)?;
-        let there = self.scalar(&there, &place.span)?;
-        self.replaced(&inner, symbol, there, &body.span)
+        let map: HashMap<SymId, Expr> = symbols.into_iter().zip(values.iter().copied()).collect();
+        if self.moves_with(&inner, &map) {
+            self.world.moment.extend(names.into_iter().zip(values));
+            return Ok(Typed::new(inner.value, format!("({} when {} = {})", inner.text, name.text, there.text)));
+        }
+        self.replaced(&inner, &map, &there.text, &body.span)
+    }
+
+    fn symbol_of(&self, e: Expr) -> Option<SymId> {
+        match *self.world.graph.node(e) {
+            crate::expr::Node::Symbol(symbol) => Some(symbol),
+            _ => None,
+        }
+    }
+
+    /// Whether rates of the symbols stand in a value: they would have to change with the symbols.
+    fn moves_with(&self, inner: &Typed, map: &HashMap<SymId, Expr>) -> bool {
+        let graph = &self.world.graph;
+        let moves = |s: &SymId| !map.contains_key(s) && map.contains_key(&graph.info(*s).base);
+        graph.symbols(&inner.value.components()).iter().any(moves)
     }
 
     /// `X|_a^x`: the value at the symbol x itself less the one where a stands in its place.
     fn difference(&mut self, body: &Node, from: &Node, to: &Node, span: &Span) -> Result<Typed> {
-        let symbol = self.variable(to)?;
+        let symbol = self.variable(to, &to.span)?;
         let inner = self.value(body)?;
         let begin = self.value(from)?;
+        let begin_text = begin.text.clone();
         let begin = self.scalar(&begin, &from.span)?;
-        let there = self.replaced(&inner, symbol, begin, &body.span)?;
+        let map = HashMap::from([(symbol, begin)]);
+        if self.moves_with(&inner, &map) {
+            return Err(Error::unsupported("a value is put in the place of a symbol whose rate stands here", span));
+        }
+        let there = self.replaced(&inner, &map, &begin_text, &body.span)?;
         let value = value::add(&mut self.world.graph, &inner.value, &there.value, true, span)?;
         Ok(Typed::new(value, format!("({} - {})", inner.text, there.text)))
     }
 
     /// The symbol that a name means.
-    fn variable(&mut self, name: &Node) -> Result<SymId> {
+    pub(super) fn variable(&mut self, name: &Node, span: &Span) -> Result<SymId> {
         let value = self.value(name)?;
-        let e = self.scalar(&value, &name.span)?;
-        match *self.world.graph.node(e) {
-            crate::expr::Node::Symbol(symbol) => Ok(symbol),
-            _ => Err(Error::unsupported("a value is put in the place of what is no symbol", &name.span)),
-        }
+        let e = self.scalar(&value, span)?;
+        let message = || format!("{} should be a symbol here", value.text);
+        self.symbol_of(e).ok_or_else(|| Error::unsupported(message(), span))
     }
 
-    /// A value with another one in the place of a symbol. What else depends on the symbol would have to change with it.
-    fn replaced(&mut self, inner: &Typed, symbol: SymId, there: Expr, span: &Span) -> Result<Typed> {
-        let graph = &self.world.graph;
-        let moves = |s: &SymId| *s != symbol && graph.info(*s).base == symbol;
-        let rates = graph.symbols(&inner.value.components()).iter().any(moves);
-        if rates || inner.value.components().iter().any(|e| self.world.remembers(*e)) {
-            let message = "a value is put in the place of a symbol whose rate or integral stands here";
+    /// A value with others in the place of symbols.
+    fn replaced(&mut self, inner: &Typed, map: &HashMap<SymId, Expr>, there: &str, span: &Span) -> Result<Typed> {
+        if inner.value.components().iter().any(|e| self.world.remembers(*e)) {
+            let message = "a value is put in the place of a symbol whose integral stands here";
             return Err(Error::unsupported(message, span));
         }
-        let map = HashMap::from([(symbol, there)]);
-        let value = inner.value.map(&mut |e| self.world.graph.substitute(e, &map));
-        Ok(Typed::new(value, format!("{} at {}", inner.text, self.world.graph.display(there))))
+        let symbols = self.world.graph.symbols(&inner.value.components());
+        if !symbols.iter().any(|s| map.contains_key(s)) {
+            return Err(Error::unsupported("the formula before the bar does not contain what is replaced", span)
+                .with_help("declare its symbols by formulas in it, with `same`"));
+        }
+        let value = inner.value.map(&mut |e| self.world.graph.substitute(e, map));
+        Ok(Typed::new(value, format!("{} at {there}", inner.text)))
     }
 }
 
-/// The name and the value of a condition x = a.
+/// The name and the value of a condition x = a, or of a replacement x → a.
 fn condition(node: &Node) -> Option<(&Node, &Node)> {
     match &node.kind {
         Kind::Chain { first: Some(name), links } => match links.as_slice() {
-            [link] if link.rel == Rel::Eq => Some((name, &link.rhs)),
+            [link] if matches!(link.rel, Rel::Eq | Rel::To) => Some((name, &link.rhs)),
             _ => None,
         },
         Kind::Group { body, .. } => condition(body),
@@ -107,7 +135,7 @@ fn condition(node: &Node) -> Option<(&Node, &Node)> {
 
 #[cfg(test)]
 mod tests {
-    use super::super::testing::{scope, value};
+    use super::super::testing::{same, scope, value};
     use super::super::{Value, World};
     use super::*;
 
@@ -145,9 +173,29 @@ mod tests {
     }
 
     #[test]
+    fn a_rate_is_meant_at_that_moment() {
+        let mut world = World::new();
+        let rate = scalar(&mut world, r"\dot{x}");
+        assert_eq!(scalar(&mut world, r"\left. \dot{x} \right|_{x = c}"), rate);
+        let (x, c) = (scalar(&mut world, "x"), scalar(&mut world, "c"));
+        assert_eq!(world.moment, [(x, c)]);
+    }
+
+    #[test]
     fn what_would_change_with_the_symbol_is_refused() {
-        for latex in [r"\left. \dot{x} \right|_{x = c}", r"\left[ \int_0^t x dt \right]_{x = c}", r"[x]_{2x = c}"] {
+        for latex in [r"\left. \dot{x} \right|_c^x", r"\left[ \int_0^t x dt \right]_{x = c}", r"[x]_{2x = c}"] {
             assert!(value(&mut World::new(), &scope(SYMBOLS), latex).is_err(), "{latex}");
         }
+    }
+
+    #[test]
+    fn symbols_are_replaced_by_formulas() {
+        const FORMULA: &str = "[symbols]\n'a, b, x' = {}\n'f' = { same = '(a \\sin x)' }";
+        assert!(same(FORMULA, r"f \Big|_{x \rightarrow x + \frac{\pi}{2}}", r"a \cos x"));
+        assert!(same(FORMULA, r"\left. x^2 + b x \right|_{x = 2}", r"4 + 2b"));
+        assert!(!same(FORMULA, r"f \Big|_{x \rightarrow x + \pi}", "f"));
+        let error = value(&mut World::new(), &scope(FORMULA), r"f \Big|_{b = 2}").unwrap_err();
+        assert!(error.message.contains("does not contain"), "{error:?}");
+        assert!(value(&mut World::new(), &scope(FORMULA), r"f \Big|_{f = 2}").is_err());
     }
 }

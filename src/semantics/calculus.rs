@@ -1,14 +1,14 @@
 //! Derivatives, differentials, bases that rotate, and the values that indices run through.
 
 use crate::expr::{Expr, Graph};
-use crate::latex::ast::{BigOp, Font, Kind, Node, Rel, Span};
+use crate::latex::ast::{BigOp, Font, Kind, Node, Span};
 
 use super::elaborate::{Elaborator, MOST_ALIASES, Typed};
+use super::element::is_integral;
 use super::error::{Error, Result};
 use super::juxtaposition::Item;
 use super::name::spelling;
 use super::scope::{Basis, EntryKind};
-use super::statement::{MOST_ASSIGNMENTS, assignments, too_many};
 use super::units::Dimension;
 use super::value::{self, Matrix, Value};
 use super::world::{Facts, Quantity};
@@ -59,7 +59,7 @@ impl Elaborator<'_> {
                 // By several variables: the tuple of the derivatives by each.
                 let each = variables.iter().map(|x| self.partial(&value, x, span)).collect::<Result<_>>()?;
                 value = Value::Tuple(each);
-            } else if name == "t" {
+            } else if name == "t" || self.is_time(variable) {
                 value = self.time_derivative(&value, 1);
             } else {
                 value = self.partial(&value, variable, span)?;
@@ -67,26 +67,6 @@ impl Elaborator<'_> {
             text = format!("d/d{name}({text})");
         }
         Ok(Typed::new(value, text))
-    }
-
-    /// The partial derivative of a value by a symbol.
-    fn partial(&mut self, value: &Value, variable: &Node, span: &Span) -> Result<Value> {
-        let x = self.value(variable)?;
-        let x = self.scalar(&x, span)?;
-        let crate::expr::Node::Symbol(id) = *self.world.graph.node(x) else {
-            let name = spelling(variable);
-            return Err(Error::unsupported(format!("a derivative with respect to {name}, which is no symbol"), span));
-        };
-        let mut along = false;
-        let derivative = value.map(&mut |e| {
-            let derivative = self.world.partial(e, id);
-            along |= derivative.is_none();
-            derivative.unwrap_or(e)
-        });
-        match along {
-            true => Err(Error::unsupported("a partial derivative of an integral along the motion", span)),
-            false => Ok(derivative),
-        }
     }
 
     /// The n-th derivative with respect to time.
@@ -222,73 +202,7 @@ impl Elaborator<'_> {
 
     // ---- indices ----------------------------------------------------------------------------------------------
 
-    /// The assignments of indices that a sum runs through: `\sum_i`, `\sum_{i=1}^{3}`, `\sum_{j \neq k}`, `\sum`.
-    pub(super) fn index_values(
-        &mut self,
-        sub: Option<&Node>,
-        sup: Option<&Node>,
-        body: &[Item],
-        span: &Span,
-    ) -> Result<Vec<Vec<(String, i64)>>> {
-        if let (Some(Node { kind: Kind::Chain { first: Some(letter), links }, .. }), Some(last)) = (sub, sup)
-            && let [link] = links.as_slice()
-            && link.rel == Rel::Eq
-        {
-            let name = spelling(letter);
-            let (from, to) = (self.integer(&link.rhs)?, self.integer(last)?);
-            let count = i128::from(to) - i128::from(from) + 1;
-            if count > MOST_ASSIGNMENTS {
-                return Err(too_many("a sum", count, span));
-            }
-            return Ok((from..=to).map(|v| vec![(name.clone(), v)]).collect());
-        }
-        let letters = match sub {
-            Some(sub) => self.unbound_indices(&[Item::Factor(sub)]),
-            None => self.unbound_indices(body),
-        };
-        if letters.is_empty() {
-            return Err(Error::undeclared("this sum names no declared index", span)
-                .with_help("declare the index under [symbols], as in 'i' = { index = [1, 3] }"));
-        }
-        let assignments = assignments(self.scope, &letters, span)?;
-        match sub {
-            Some(Node { kind: Kind::Chain { first: Some(first), links }, .. }) => {
-                let kept = assignments.into_iter().map(|a| Ok((self.condition(first, links, &a)?, a)));
-                let kept: Vec<(bool, _)> = kept.collect::<Result<_>>()?;
-                Ok(kept.into_iter().filter(|(keep, _)| *keep).map(|(_, a)| a).collect())
-            }
-            _ => Ok(assignments),
-        }
-    }
-
-    fn condition(&self, first: &Node, links: &[crate::latex::ast::Link], a: &[(String, i64)]) -> Result<bool> {
-        let value = |n: &Node| -> Result<i64> {
-            let name = spelling(n);
-            let own = a.iter().find(|(letter, _)| *letter == name).map(|(_, v)| *v);
-            own.or_else(|| self.index_value(&name))
-                .or_else(|| name.parse().ok())
-                .ok_or_else(|| Error::undeclared(format!("the index {name} has no value here"), &n.span))
-        };
-        let mut left = value(first)?;
-        for link in links {
-            let right = value(&link.rhs)?;
-            let holds = match link.rel {
-                Rel::Ne => left != right,
-                Rel::Lt => left < right,
-                Rel::Gt => left > right,
-                Rel::Le => left <= right,
-                Rel::Ge => left >= right,
-                Rel::Eq => left == right,
-                _ => return Err(Error::unsupported("an unknown condition on indices", &link.rel_span)),
-            };
-            if !holds {
-                return Ok(false);
-            }
-            left = right;
-        }
-        Ok(true)
-    }
-
+    /// The whole number that stands where only such a number may.
     pub(super) fn integer(&mut self, node: &Node) -> Result<i64> {
         let typed = self.value(node)?;
         let e = self.scalar(&typed, &node.span)?;
@@ -340,13 +254,13 @@ impl Elaborator<'_> {
             self.collect_letters(node, bound, found);
             let depth = self.aliases.get();
             if let (EntryKind::Same(other), true) = (&entry.kind, depth < MOST_ALIASES) {
-                // The letters of its own name stand for the indices that it is printed with.
-                let outside = bound.len();
-                bound.extend(entry.letters.iter().cloned());
                 self.aliases.set(depth + 1);
+                // Within the formula, the indices of the name and the arguments have the values that are printed.
+                let outer = bound.len();
+                bound.extend(entry.letters.iter().chain(&entry.arguments).cloned());
                 self.collect_indices(other, bound, found);
+                bound.truncate(outer);
                 self.aliases.set(depth);
-                bound.truncate(outside);
             }
             return;
         }
@@ -370,8 +284,14 @@ impl Elaborator<'_> {
             }
         }
         let depth = bound.len();
-        for child in children(node) {
+        let children = children(node);
+        for (k, child) in children.iter().enumerate() {
             let mut limits = Vec::new();
+            if is_integral(child) {
+                let own = children[k + 1..].iter().position(|n| is_integral(n)).map_or(children.len(), |n| k + 1 + n);
+                bound.extend(self.particles(&children[k + 1..own]));
+                continue;
+            }
             if let Kind::Scripts { base, sub, .. } = &child.kind
                 && is_sum(base)
             {
@@ -479,9 +399,14 @@ fn several(variable: &Node) -> Option<&[Node]> {
 
 fn variable_and_order(node: &Node) -> (Node, usize) {
     match &node.kind {
-        Kind::Scripts { base, primes: 0, sub: None, sup: Some(sup) } => match small_integer(sup) {
-            Some(n) => (base.as_ref().clone(), n),
-            None => (node.clone(), 1),
+        Kind::Scripts { base, primes, sub, sup: Some(sup) } => match (small_integer(sup), *primes, sub) {
+            (Some(n), 0, None) => (base.as_ref().clone(), n),
+            // Twice by x' or x_1.
+            (Some(n), ..) => {
+                let kind = Kind::Scripts { base: base.clone(), primes: *primes, sub: sub.clone(), sup: None };
+                (Node::new(kind, node.span.clone()), n)
+            }
+            (None, ..) => (node.clone(), 1),
         },
         _ => (node.clone(), 1),
     }

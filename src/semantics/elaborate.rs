@@ -2,16 +2,18 @@
 
 use std::cell::Cell;
 
-use crate::expr::{Expr, Func, SymId};
+use crate::expr::{Expr, Func};
 use crate::latex::ast::{Delim, Kind, MatrixEnv, Node, Sign, Span, Term};
 use crate::latex::to_latex;
 
+use super::complex;
 use super::error::{Error, Result};
+use super::juxtaposition::Item;
 use super::name::spelling;
 use super::quaternion;
-use super::scope::{Entry, EntryKind, Scope, pattern};
+use super::scope::Scope;
 use super::value::{self, Matrix, Value};
-use super::world::{Facts, Joint, Quantity, Role, World};
+use super::world::{Joint, Role, World};
 
 /// The most that is told of how a value was read, in bytes: otherwise a sum of n terms takes n² to read.
 const LONGEST_TEXT: usize = 4000;
@@ -51,17 +53,22 @@ pub struct Elaborator<'w> {
     pub(super) upper: bool,
     /// How many names stand for names here.
     pub(super) aliases: Cell<usize>,
+    /// The arguments of the function whose formula is being written out.
+    pub(super) bound: Vec<(String, Typed)>,
 }
 
 impl<'w> Elaborator<'w> {
     /// An elaborator with the given indices fixed, on the upper or lower branch of ±.
     pub fn new(world: &'w mut World, scope: &'w Scope, indices: Vec<(String, i64)>, upper: bool) -> Self {
-        Elaborator { world, scope, indices, upper, aliases: Cell::new(0) }
+        Elaborator { world, scope, indices, upper, aliases: Cell::new(0), bound: Vec::new() }
     }
 
     /// The value of an expression.
     pub fn value(&mut self, node: &Node) -> Result<Typed> {
         self.world.step(&node.span)?;
+        if let Some((angle, _)) = self.angle(&[Item::Factor(node)])? {
+            return Ok(angle);
+        }
         match &node.kind {
             Kind::Number(text) => self.number(text, &node.span),
             Kind::Symbol(_) | Kind::Styled(..) | Kind::Accent(..) | Kind::Scripts { .. } | Kind::Dots(..) => {
@@ -70,8 +77,10 @@ impl<'w> Elaborator<'w> {
             Kind::Juxt(_) | Kind::Product { .. } | Kind::Frac(..) => self.product(node),
             Kind::Sum(terms) => self.terms(terms),
             Kind::Sqrt { index, body } => self.root(index.as_deref(), body, &node.span),
+            Kind::Group { open: Delim::Angle | Delim::Paren, .. } if self.is_declared(node) => self.atom(node),
             Kind::Group { open, close, body } => self.group(*open, *close, body, &node.span),
             Kind::List(items) => self.tuple(items),
+            Kind::Matrix { env: MatrixEnv::Cases, rows } => self.case(rows, node),
             Kind::Matrix { env, rows } => self.matrix(*env, rows, &node.span),
             Kind::Annotated { body, .. } => self.value(body),
             Kind::Function(_) => self.product(node),
@@ -81,7 +90,7 @@ impl<'w> Elaborator<'w> {
                 .with_help("give the formula a `reading` without the words")),
             Kind::Ellipsis => Err(Error::unsupported("an ellipsis stands for terms that are not printed", &node.span)
                 .with_help("give the formula a `reading` in which the terms are written out or summed")),
-            Kind::Factorial(..) => Err(Error::unsupported("factorials are not evaluated yet", &node.span)),
+            Kind::Factorial(step, body) => self.factorial(*step, body, &node.span),
             Kind::At { body, at } => self.evaluated_at(body, at, &node.span),
             Kind::Chain { .. } | Kind::Rows(_) | Kind::Marked(..) => {
                 Err(Error::unsupported("a relation stands where a value is expected", &node.span))
@@ -160,10 +169,14 @@ impl<'w> Elaborator<'w> {
     }
 
     fn group(&mut self, open: Delim, close: Delim, body: &Node, span: &Span) -> Result<Typed> {
+        if let Some(bracket) = self.poisson(open, body, span)? {
+            return Ok(bracket);
+        }
         let inner = self.value(body)?;
         match (open, close) {
             (Delim::Bar, Delim::Bar) | (Delim::DoubleBar, Delim::DoubleBar) => self.magnitude(&inner, span),
-            (Delim::Angle | Delim::Floor | Delim::Ceil, _) => {
+            (Delim::Floor | Delim::Ceil, _) => self.rounded(open, &inner, span),
+            (Delim::Angle, _) => {
                 Err(Error::unsupported("these brackets have a meaning that is not evaluated yet", span))
             }
             _ => Ok(inner),
@@ -179,6 +192,10 @@ impl<'w> Elaborator<'w> {
                 let square = value::dot3(graph, v, v);
                 graph.sqrt(square)
             }
+            Value::Complex(re, im) => {
+                let square = complex::square(graph, (*re, *im));
+                graph.sqrt(square)
+            }
             Value::Matrix(m) if m.rows == m.cols && m.rows <= value::LARGEST_DETERMINANT => {
                 value::determinant(graph, m)
             }
@@ -188,9 +205,6 @@ impl<'w> Elaborator<'w> {
     }
 
     fn matrix(&mut self, env: MatrixEnv, rows: &[Vec<Node>], span: &Span) -> Result<Typed> {
-        if env == MatrixEnv::Cases {
-            return Err(Error::unsupported("cases stand only as the whole of a side", span));
-        }
         let cols = rows.iter().map(Vec::len).max().unwrap_or(0);
         let mut data = Vec::new();
         let mut text = Vec::new();
@@ -239,6 +253,14 @@ impl<'w> Elaborator<'w> {
                 let inner = self.value(body)?;
                 let value = self.time_derivative(&inner.value, u32::from(*n));
                 Ok(Typed::new(value, format!("\\{}ot{{{}}}", "d".repeat(usize::from(*n)), inner.text)))
+            }
+            Kind::Scripts { base, primes: 0, sub: Some(angles), sup: None }
+                if matches!(base.kind, Kind::Group { open: Delim::Angle, close: Delim::Angle, .. }) =>
+            {
+                match &base.kind {
+                    Kind::Group { body, .. } => self.mean(body, angles, &node.span),
+                    _ => Err(self.not_declared(node)),
+                }
             }
             Kind::Scripts { base, primes, sub, sup } => {
                 self.scripts(node, base, *primes, sub.as_deref(), sup.as_deref())
@@ -325,107 +347,6 @@ impl<'w> Elaborator<'w> {
         }
         Err(self.not_declared(node))
     }
-
-    /// Whether a symbol is declared, without building its value.
-    pub(super) fn is_declared(&self, node: &Node) -> bool {
-        self.entry(node).is_some()
-    }
-
-    /// The entry of a symbol, with the values of its indices.
-    pub(super) fn entry(&self, node: &Node) -> Option<(&Entry, Vec<i64>)> {
-        let exact = spelling(node);
-        if exact.is_empty() {
-            return None;
-        }
-        if let Some(entry) = self.scope.get(&exact) {
-            return Some((entry, entry.hidden.iter().filter_map(|letter| self.index_value(letter)).collect()));
-        }
-        let values = std::cell::RefCell::new(Vec::new());
-        let is_index = |letter: &str| self.index_value(letter).inspect(|v| values.borrow_mut().push(*v)).is_some();
-        let family = pattern(node, &is_index);
-        if let Some(entry) = self.scope.get(&family) {
-            return Some((entry, values.into_inner()));
-        }
-        // Numbers as indices: m_1 of the family m_i.
-        let numbered = numbered_pattern(node)?;
-        Some((self.scope.get(&numbered.0)?, numbered.1))
-    }
-
-    /// The value that an index letter has here.
-    pub(super) fn index_value(&self, letter: &str) -> Option<i64> {
-        self.indices.iter().rev().find(|(name, _)| name == letter).map(|(_, v)| *v)
-    }
-
-    /// The value of a declared symbol, or `None` where the node is no declared name.
-    fn declared(&mut self, node: &Node) -> Result<Option<Typed>> {
-        let Some((entry, indices)) = self.entry(node) else { return Ok(None) };
-        let entry = entry.clone();
-        let name = instance(&entry.pattern, &indices);
-        let name = match entry.hidden.iter().find(|letter| self.index_value(letter).is_none()) {
-            Some(letter) => {
-                return Err(Error::undeclared(format!("the index {letter} of {name} has no value here"), &node.span));
-            }
-            None if entry.hidden.is_empty() => name,
-            None => format!("{name}_{{{}}}", indices.iter().map(i64::to_string).collect::<Vec<_>>().join(",")),
-        };
-        let value = match &entry.kind {
-            EntryKind::Scalar => Value::Scalar(self.scalar_symbol(&entry, &name, name.clone())),
-            EntryKind::Vector => Value::Vector(
-                ["x", "y", "z"]
-                    .map(|axis| self.scalar_symbol(&entry, &format!("{name}.{axis}"), format!("({name})_{axis}"))),
-            ),
-            EntryKind::Matrix { rows, cols } => {
-                let cells = (0..rows * cols).map(|k| (k / cols + 1, k % cols + 1));
-                let data = cells
-                    .map(|(i, j)| self.scalar_symbol(&entry, &format!("{name}.{i}{j}"), format!("{name}_{{{i}{j}}}")));
-                Value::Matrix(Matrix { rows: *rows, cols: *cols, data: data.collect() })
-            }
-            EntryKind::Index(..) => match self.index_value(&name) {
-                Some(v) => Value::Scalar(self.world.graph.int(v)),
-                None => return Err(Error::undeclared(format!("the index {name} has no value here"), &node.span)),
-            },
-            EntryKind::Same(other) => {
-                let depth = self.indices.len();
-                self.indices.extend(entry.letters.iter().cloned().zip(indices));
-                let value = self.alias(&name, other, &node.span);
-                self.indices.truncate(depth);
-                return value.map(Some);
-            }
-            EntryKind::Component { of, basis, axis } => {
-                let whole = self.alias(&name, of, &node.span)?;
-                let component = self.component(&whole, basis, *axis, &node.span)?;
-                return Ok(Some(Typed::new(component.value, name)));
-            }
-            EntryKind::BasisVector { basis, axis } => Value::Vector(self.triad(basis, &node.span)?[*axis]),
-            EntryKind::Rate { basis } => Value::Vector(self.angular_velocity(basis, &node.span)?),
-            EntryKind::Function => {
-                return Err(Error::unsupported(format!("the function {name} has no argument here"), &node.span));
-            }
-        };
-        Ok(Some(Typed::new(value, shown_name(node))))
-    }
-
-    /// What a name stands for, which may be a name that stands for something.
-    fn alias(&mut self, name: &str, other: &Node, span: &Span) -> Result<Typed> {
-        let depth = self.aliases.get();
-        if depth >= MOST_ALIASES {
-            let message =
-                format!("{name} stands for a name that stands for a name, and so on for {MOST_ALIASES} times");
-            return Err(Error::unsupported(message, span).with_help("do the declarations with `same` go in a circle?"));
-        }
-        self.aliases.set(depth + 1);
-        let value = self.value(other);
-        self.aliases.set(depth);
-        value
-    }
-
-    fn scalar_symbol(&mut self, entry: &Entry, name: &str, tex: String) -> Expr {
-        let quantity =
-            || Quantity { name: entry.pattern.clone(), declared: entry.declared, dimension: entry.dimension };
-        let facts = || Facts { tex, range: entry.range, integer: entry.integer, quantity: Some(quantity()) };
-        let id: SymId = self.world.symbol(name, entry.of_t, facts);
-        self.world.graph.sym(id)
-    }
 }
 
 /// Sum or difference in which the number 0 also stands for the null vector.
@@ -440,38 +361,4 @@ pub(super) fn add_or_zero(
         return Ok(a.clone());
     }
     value::add(graph, a, b, minus, span)
-}
-
-/// A family's name with its indices filled in.
-fn instance(pattern: &str, indices: &[i64]) -> String {
-    let mut values = indices.iter();
-    pattern
-        .chars()
-        .map(|c| match c {
-            '#' => values.next().map_or_else(|| "#".to_owned(), i64::to_string),
-            c => c.to_string(),
-        })
-        .collect()
-}
-
-/// The pattern of a name in which the numbers in the scripts are indices, with their values.
-fn numbered_pattern(node: &Node) -> Option<(String, Vec<i64>)> {
-    let Kind::Scripts { base, primes, sub: Some(sub), sup: None } = &node.kind else { return None };
-    let values = std::cell::RefCell::new(Vec::new());
-    let leaf = |n: &Node| match &n.kind {
-        Kind::Number(digits) => digits.parse().ok().map(|v: i64| {
-            values.borrow_mut().push(v);
-            "#".to_owned()
-        }),
-        _ => None,
-    };
-    let sub = super::name::spelling_with(sub, &leaf);
-    let text = format!("{}{}_{{{sub}}}", spelling(base), "'".repeat(usize::from(*primes)));
-    let values = values.into_inner();
-    (!values.is_empty()).then_some((text, values))
-}
-
-/// A name as it is shown in a reading.
-fn shown_name(node: &Node) -> String {
-    spelling(node)
 }

@@ -12,17 +12,19 @@
 //!
 //! Visible operators: cross products first, then dots and slashes from left to right.
 
-use crate::expr::{Expr, Func};
 use crate::latex::ast::{BigOp, Kind, Node, ProductOp, Span};
 use crate::latex::to_latex;
 
 use super::calculus::Derivative;
+use super::complex;
 use super::elaborate::{Elaborator, Typed};
+use super::element::factors_of;
 use super::elliptic::is_name;
 use super::error::{Error, Result};
+use super::function::function_name;
+use super::link::assignments;
 use super::quaternion;
 use super::value::{self, Value};
-use super::world::{Joint, Role};
 
 /// A product laid flat.
 #[derive(Clone, Copy)]
@@ -54,21 +56,6 @@ fn span_of(items: &[Item]) -> Span {
     match (items.first(), items.last()) {
         (Some(a), Some(b)) => span(a).start..span(b).end,
         _ => 0..0,
-    }
-}
-
-/// The functions of a scalar that are evaluated.
-const FUNCTIONS: [&str; 18] = [
-    "sin", "cos", "tan", "cot", "sec", "csc", "arcsin", "arccos", "arctan", "sinh", "cosh", "tanh", "coth", "sech",
-    "csch", "exp", "ln", "log",
-];
-
-/// The name of a function of a scalar, also where it is printed as words: `\text{sech}u`. A second has the name `sec`.
-fn function_name(head: &Node) -> Option<&str> {
-    match &head.kind {
-        Kind::Function(name) => Some(name),
-        Kind::Text(name) => Some(name.trim()).filter(|name| *name != "sec" && FUNCTIONS.contains(name)),
-        _ => None,
     }
 }
 
@@ -183,12 +170,25 @@ impl Elaborator<'_> {
         if let Some(found) = self.elliptic(items)? {
             return Ok(found);
         }
+        if let Some(found) = self.legendre(items)? {
+            return Ok(found);
+        }
+        if let Some(found) = self.angle(items)? {
+            return Ok(found);
+        }
         let (head, sup) = head_and_power(node);
+        if complex::is_unit(head) {
+            let unit = Typed::new(complex::unit(&mut self.world.graph), "i");
+            return self.with_power(unit, sup, &node.span).map(|t| (t, 1));
+        }
         if let Some(name) = function_name(head) {
             return self.function(name, sup, node, &items[1..]).map(|(t, n)| (t, n + 1));
         }
         match &head.kind {
-            Kind::BigOp(op) => return self.big_operator(*op, node, &items[1..]).map(|t| (t, items.len())),
+            Kind::BigOp(op) => {
+                let reach = self.reach(head, &items[1..]);
+                return self.big_operator(*op, node, &items[1..=reach]).map(|t| (t, reach + 1));
+            }
             Kind::Frac(num, den) => return self.fraction(num, den, node, &items[1..]).map(|(t, n)| (t, n + 1)),
             _ => {}
         }
@@ -197,6 +197,9 @@ impl Elaborator<'_> {
                 return Ok((found, 2));
             }
             if let Some(found) = self.choices(node, next)? {
+                return Ok((found, 2));
+            }
+            if let Some(found) = self.applied(node, next)? {
                 return Ok((found, 2));
             }
             if self.is_differential_sign(node) {
@@ -267,132 +270,6 @@ impl Elaborator<'_> {
         self.derived(&derivative, inner, &node.span).map(|t| (t, used))
     }
 
-    /// A function with its argument; returns the number of items used by the argument.
-    fn function(&mut self, name: &str, sup: Option<&Node>, node: &Node, rest: &[Item]) -> Result<(Typed, usize)> {
-        let used = self.argument_length(rest);
-        if used == 0 {
-            return Err(Error::unsupported(format!("\\{name} has no argument here"), &node.span));
-        }
-        let argument = self.items(&rest[..used])?;
-        if !matches!(name, "max" | "min") {
-            self.world.join(|| Joint {
-                role: Role::Argument(name.to_owned()),
-                parts: vec![(latex_of(&rest[..used]), argument.value.clone())],
-            });
-        }
-        let inverse = matches!(sup.map(|s| &s.kind), Some(Kind::Sum(t)) if t.len() == 1 && is_minus_one(&t[0]));
-        let name = if inverse { format!("arc{name}") } else { name.to_owned() };
-        let result = self.call(&name, argument, &node.span)?;
-        let result = self.with_power(result, sup.filter(|_| !inverse), &node.span)?;
-        Ok((result, used))
-    }
-
-    /// How many items the argument of a function takes.
-    fn argument_length(&self, rest: &[Item]) -> usize {
-        if matches!(rest.first(), Some(Item::Factor(n)) if is_bracket(n)) {
-            return 1;
-        }
-        let mut used = 0;
-        let mut only_numbers = true;
-        while let Some(Item::Factor(node)) = rest.get(used) {
-            let (head, _) = head_and_power(node);
-            let ends = match &head.kind {
-                Kind::Function(_) | Kind::BigOp(_) | Kind::Styled(..) | Kind::Accent(..) | Kind::Text(_) => true,
-                Kind::Dots(_, body) => matches!(body.kind, Kind::Styled(..) | Kind::Accent(..)),
-                Kind::Group { .. } => !only_numbers,
-                _ => false,
-            };
-            if ends && used > 0 {
-                break;
-            }
-            used += 1;
-            only_numbers &= matches!(head.kind, Kind::Number(_));
-            if self.completes_angle(node) || ends {
-                break;
-            }
-        }
-        used
-    }
-
-    /// Whether a factor holds a symbol whose unit is the radian, so that an argument is complete with it.
-    fn completes_angle(&self, node: &Node) -> bool {
-        match &node.kind {
-            Kind::Frac(num, den) => self.completes_angle(num) || self.completes_angle(den),
-            Kind::Juxt(factors) => factors.iter().any(|f| self.completes_angle(f)),
-            Kind::Group { body, .. } => self.completes_angle(body),
-            _ => self.entry(node).is_some_and(|(entry, _)| entry.is_angle()),
-        }
-    }
-
-    fn call(&mut self, name: &str, argument: Typed, span: &Span) -> Result<Typed> {
-        if let (Value::Matrix(m), "det") = (&argument.value, name) {
-            if m.rows != m.cols || m.rows > value::LARGEST_DETERMINANT {
-                let of = argument.value.shape();
-                return Err(Error::shape(format!("the determinant of {of}: {}", value::DETERMINANTS), span));
-            }
-            let det = value::determinant(&mut self.world.graph, m);
-            return Ok(Typed::new(Value::Scalar(det), format!("det({})", argument.text)));
-        }
-        if let (Value::Tuple(items), "max" | "min") = (&argument.value, name) {
-            return self.extreme(items, name == "max", span);
-        }
-        // What Kenzan does not know must not look like a mistake of the author's: the maximum of a tuple, exp of a matrix.
-        if !FUNCTIONS.contains(&name) || name == "exp" && matches!(argument.value, Value::Matrix(_)) {
-            let of = argument.value.shape();
-            return Err(Error::unsupported(format!("the function {name} of {of} is not evaluated yet"), span));
-        }
-        let x = self.scalar(&argument, span)?;
-        let graph = &mut self.world.graph;
-        let one = graph.int(1);
-        let reciprocal = |f: Func, graph: &mut crate::expr::Graph| {
-            let y = graph.call(f, x);
-            graph.div(one, y)
-        };
-        let value = match name {
-            "sin" => graph.call(Func::Sin, x),
-            "cos" => graph.call(Func::Cos, x),
-            "tan" => graph.call(Func::Tan, x),
-            "cot" => reciprocal(Func::Tan, graph),
-            "sec" => reciprocal(Func::Cos, graph),
-            "csc" => reciprocal(Func::Sin, graph),
-            "arcsin" => graph.call(Func::Asin, x),
-            "arccos" => graph.call(Func::Acos, x),
-            "arctan" => graph.call(Func::Atan, x),
-            "sinh" => graph.call(Func::Sinh, x),
-            "cosh" => graph.call(Func::Cosh, x),
-            "tanh" => graph.call(Func::Tanh, x),
-            "coth" => reciprocal(Func::Tanh, graph),
-            "sech" => reciprocal(Func::Cosh, graph),
-            "csch" => reciprocal(Func::Sinh, graph),
-            "exp" => graph.call(Func::Exp, x),
-            "ln" | "log" => graph.call(Func::Ln, x),
-            _ => {
-                return Err(Error::unsupported(format!("the function {name} is not evaluated yet"), span));
-            }
-        };
-        Ok(Typed::new(Value::Scalar(value), format!("{name}({})", argument.text)))
-    }
-
-    /// The largest or least of some numbers: of two, half the sum of them and of their distance.
-    fn extreme(&mut self, items: &[Value], largest: bool, span: &Span) -> Result<Typed> {
-        let mut extreme: Option<Expr> = None;
-        for item in items {
-            let e = self.scalar(&Typed::new(item.clone(), ""), span)?;
-            let graph = &mut self.world.graph;
-            extreme = Some(match extreme {
-                None => e,
-                Some(acc) => {
-                    let (sum, difference, two) = (graph.add(acc, e), graph.sub(acc, e), graph.int(2));
-                    let distance = graph.call(Func::Abs, difference);
-                    let twice = if largest { graph.add(sum, distance) } else { graph.sub(sum, distance) };
-                    graph.div(twice, two)
-                }
-            });
-        }
-        let e = extreme.ok_or_else(|| Error::unsupported("the largest of nothing", span))?;
-        Ok(Typed::new(Value::Scalar(e), if largest { "max" } else { "min" }))
-    }
-
     fn big_operator(&mut self, op: BigOp, node: &Node, rest: &[Item]) -> Result<Typed> {
         let (sub, sup) = match &node.kind {
             Kind::Scripts { sub, sup, .. } => (sub.as_deref(), sup.as_deref()),
@@ -401,12 +278,21 @@ impl Elaborator<'_> {
         if rest.is_empty() {
             return Err(Error::unsupported("this operator has nothing to act on", &node.span));
         }
+        if let (BigOp::Sum, None) = (op, sup)
+            && let Some(sum) = self.cyclic_sum(sub, rest, &node.span)?
+        {
+            return Ok(sum);
+        }
         match op {
             BigOp::Sum | BigOp::Product => {}
+            BigOp::Integral | BigOp::DoubleIntegral if !self.particles(&factors_of(rest)).is_empty() => {}
             BigOp::Integral => return self.integral(sub, sup, rest, &node.span),
             _ => return Err(Error::unsupported("integrals over areas are not evaluated yet", &node.span)),
         }
-        let ranges = self.index_values(sub, sup, rest, &node.span)?;
+        let ranges = match op {
+            BigOp::Sum | BigOp::Product => self.index_values(sub, sup, rest, &node.span)?,
+            _ => assignments(self.scope, &self.particles(&factors_of(rest)), &node.span)?,
+        };
         let mut total: Option<Typed> = None;
         for assignment in ranges {
             let depth = self.indices.len();
@@ -419,14 +305,20 @@ impl Elaborator<'_> {
                 Some(acc) => {
                     let graph = &mut self.world.graph;
                     let value = match op {
-                        BigOp::Sum => value::add(graph, &acc.value, &term.value, false, &node.span)?,
+                        BigOp::Sum | BigOp::Integral | BigOp::DoubleIntegral => {
+                            value::add(graph, &acc.value, &term.value, false, &node.span)?
+                        }
                         _ => value::multiply(graph, &acc.value, &term.value, &node.span)?,
                     };
                     Typed::new(value, acc.text)
                 }
             });
         }
-        let symbol = if op == BigOp::Sum { "Σ" } else { "Π" };
+        let symbol = match op {
+            BigOp::Sum => "Σ",
+            BigOp::Product => "Π",
+            _ => "∫",
+        };
         match total {
             Some(t) => {
                 let over = sub.map(super::name::spelling).unwrap_or_default();
@@ -438,7 +330,7 @@ impl Elaborator<'_> {
 }
 
 /// The LaTeX of some factors.
-fn latex_of(items: &[Item]) -> String {
+pub(super) fn latex_of(items: &[Item]) -> String {
     let factors = items.iter().filter_map(|item| match item {
         Item::Factor(n) => Some((*n).clone()),
         Item::Op(..) => None,
@@ -458,7 +350,7 @@ pub(super) fn head_and_power(node: &Node) -> (&Node, Option<&Node>) {
     }
 }
 
-fn is_minus_one(term: &crate::latex::ast::Term) -> bool {
+pub(super) fn is_minus_one(term: &crate::latex::ast::Term) -> bool {
     term.sign == crate::latex::ast::Sign::Minus && matches!(&term.node.kind, Kind::Number(n) if n == "1")
 }
 

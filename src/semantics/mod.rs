@@ -9,22 +9,39 @@
 //! [`Error`] with its place, never a guess; a mismatch of shapes is told apart from a missing declaration, because the
 //! first is the author's and the second is the annotator's.
 
+mod apply;
 mod at;
 mod calculus;
+mod complex;
 mod counting;
+mod cyclic;
 mod elaborate;
+mod element;
 mod elliptic;
 mod error;
+mod function;
 mod geometric;
+mod index_range;
 mod juxtaposition;
 mod kronecker;
+mod legendre;
+mod limits;
+mod link;
+mod mean;
 mod motion;
 mod name;
+mod notes;
+mod partial;
+mod poisson;
 mod power;
 mod quaternion;
+mod ratio;
+mod remainder;
 mod scope;
+mod sexagesimal;
 mod signs;
 mod statement;
+mod symbol;
 mod terms;
 #[cfg(test)]
 mod testing;
@@ -35,13 +52,13 @@ mod world;
 pub use elaborate::{Elaborator, Typed};
 pub use error::{Error, ErrorKind};
 pub use geometric::is_geometric;
+pub use index_range::without_index_ranges;
+pub use link::{Instance, TypedLink, every_value, understand};
 pub use name::spelling;
+pub use remainder::{is_remainder, without_remainder};
 pub use scope::{Basis, Entry, EntryKind, Scope, pattern_of};
 pub use signs::independent_signs;
-pub use statement::{
-    Clause, Instance, Side, Statement, TypedLink, begins_with_relation, every_value, has_branches, mentions,
-    relation_latex, statement, understand,
-};
+pub use statement::{Clause, Side, Statement, begins_with_relation, has_branches, mentions, relation_latex, statement};
 pub use terms::{PrintedTerm, printed_terms};
 pub use value::{Matrix, Value};
 pub use world::{Facts, Joint, Quantity, Role, World};

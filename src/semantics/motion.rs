@@ -126,6 +126,14 @@ impl World {
         self.graph.symbols(&[e]).iter().any(known)
     }
 
+    /// What a symbol is made of, if it is an integral along the motion or a value at its start: what it integrates (then
+    /// `true`), or what it is the value of.
+    pub fn remembered(&self, symbol: SymId) -> Option<(Expr, bool)> {
+        let integral = self.history.integrals.iter().find(|i| i.symbol == symbol).map(|i| (i.rate, true));
+        let start = || self.history.starts.iter().find(|(s, _)| *s == symbol).map(|(_, e)| (*e, false));
+        integral.or_else(start)
+    }
+
     /// The time derivative of an expression, in which an integral's is what it integrates.
     pub fn rate(&mut self, e: Expr) -> Expr {
         let t = self.graph.find("t");

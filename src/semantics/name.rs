@@ -34,6 +34,10 @@ pub fn spelling_with(node: &Node, leaf: &dyn Fn(&Node) -> Option<String>) -> Str
         }
         Kind::Juxt(factors) => joined(factors, "", leaf),
         Kind::List(items) => joined(items, ",", leaf),
+        Kind::Group { open: Delim::Angle, body, .. } => match spelling_with(body, leaf) {
+            body if body.is_empty() => body,
+            body => format!("\\langle {body}\\rangle"),
+        },
         Kind::Group { open: Delim::Paren, body, .. } => format!("({})", spelling_with(body, leaf)),
         _ => String::new(),
     }

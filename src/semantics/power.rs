@@ -3,6 +3,7 @@
 use crate::latex::ast::{Kind, Node, Span};
 use crate::latex::to_latex;
 
+use super::complex;
 use super::elaborate::{Elaborator, Typed};
 use super::error::{Error, Result};
 use super::quaternion;
@@ -26,6 +27,9 @@ impl Elaborator<'_> {
             ));
         }
         let exponent = self.value(sup)?;
+        if let Some(value) = complex::power(&mut self.world.graph, &base.value, &exponent.value, span)? {
+            return Ok(Typed::new(value, format!("{}^{}", base.text, exponent.text)));
+        }
         let n = self.scalar(&exponent, &sup.span)?;
         self.world.join(|| Joint { role: Role::Exponent, parts: vec![(to_latex(sup), exponent.value.clone())] });
         let graph = &mut self.world.graph;

@@ -137,9 +137,7 @@ pub(super) fn inverse(graph: &mut Graph, (s, v): &Parts) -> Value {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
-    use crate::semantics::World;
-    use crate::semantics::testing::{scope, value};
+    use crate::semantics::testing;
 
     const SYMBOLS: &str = r"
         [symbols]
@@ -150,19 +148,7 @@ mod tests {
     ";
 
     fn same(left: &str, right: &str) -> bool {
-        let (mut world, scope) = (World::new(), scope(SYMBOLS));
-        let (a, b) = (value(&mut world, &scope, left).unwrap(), value(&mut world, &scope, right).unwrap());
-        let (a, b) = (a.components(), b.components());
-        let symbols: Vec<_> = world.graph.symbols(&[a.clone(), b.clone()].concat()).into_iter().collect();
-        let inputs: std::collections::HashMap<_, _> =
-            symbols.iter().enumerate().map(|(k, s)| (*s, 0.3 + 0.7 * (k as f64 * 1.7).sin())).collect();
-        let at = |es: &[Expr]| -> Vec<f64> {
-            let tape = crate::expr::Tape::compile(&world.graph, es);
-            let inputs: Vec<f64> = tape.inputs().iter().map(|s| inputs[s]).collect();
-            tape.eval(&inputs, &(), &mut crate::expr::Workspace::default()).to_vec()
-        };
-        let (x, y) = (at(&a), at(&b));
-        x.len() == y.len() && x.iter().zip(&y).all(|(p, q)| (p - q).abs() < 1e-12)
+        testing::same(SYMBOLS, left, right)
     }
 
     #[test]

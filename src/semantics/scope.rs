@@ -73,6 +73,8 @@ pub struct Entry {
     pub declared: usize,
     /// Whether it takes integers only.
     pub integer: bool,
+    /// The distance between the values of an index.
+    pub step: usize,
     /// The indices it has one value for each of that are not printed: the j of \\sum m r^2.
     pub hidden: Vec<String>,
     /// The indices that its name prints, in their order.
@@ -123,6 +125,10 @@ pub struct Scope {
     pub natural_units: bool,
     /// The modulus of elliptic functions that are printed without one.
     pub modulus: Option<Node>,
+    /// The triples of names that go round together in cyclic sums.
+    pub cyclic: Vec<[Node; 3]>,
+    /// The canonical variables of Poisson brackets: each momentum with its coordinate.
+    pub canonical: Vec<(Node, Node)>,
 }
 
 impl Scope {
@@ -187,6 +193,18 @@ impl Scope {
         if let Some(modulus) = &block.modulus {
             self.modulus = parse_name(modulus, &mut problems);
         }
+        if !block.cyclic.is_empty() {
+            let mut read = |names: &[Spanned<String>; 3]| -> Option<[Node; 3]> {
+                let nodes: Vec<Node> = names.iter().filter_map(|n| parse_name(n, &mut problems)).collect();
+                nodes.try_into().ok()
+            };
+            self.cyclic = block.cyclic.iter().filter_map(&mut read).collect();
+        }
+        if !block.canonical.is_empty() {
+            let pairs = block.canonical.iter();
+            let read = pairs.filter_map(|(p, q)| Some((parse_name(p, &mut problems)?, parse_name(q, &mut problems)?)));
+            self.canonical = read.collect();
+        }
         problems
     }
 
@@ -244,6 +262,7 @@ impl Scope {
                 dimension,
                 declared: name.span.start,
                 integer: d.integer,
+                step: d.step.unwrap_or(1).max(1),
                 hidden,
                 letters,
                 arguments: arguments.clone(),
@@ -270,6 +289,23 @@ impl Scope {
             Kind::Scripts { base, sub: Some(sub), .. } => {
                 if matches!(base.kind, Kind::Group { .. }) || self.axis(&spelling(sub)).is_some() {
                     self.collect_names(base, found);
+                }
+            }
+            // dM may be a name of its own, that says nothing of M.
+            Kind::Juxt(factors) => {
+                let mut k = 0;
+                while let Some(first) = factors.get(k) {
+                    let pair = factors.get(k + 1).map(|second| format!("{}{}", spelling(first), spelling(second)));
+                    match pair.filter(|pair| self.get(pair).is_some()) {
+                        Some(pair) => {
+                            found.insert(pair);
+                            k += 2;
+                        }
+                        None => {
+                            self.collect_names(first, found);
+                            k += 1;
+                        }
+                    }
                 }
             }
             _ => node.children().into_iter().for_each(|child| self.collect_names(child, found)),
@@ -321,6 +357,7 @@ impl Entry {
             dimension: None,
             declared: 0,
             integer: false,
+            step: 1,
             hidden: Vec::new(),
             letters: Vec::new(),
             arguments: Vec::new(),

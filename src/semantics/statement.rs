@@ -1,17 +1,13 @@
 //! From a parsed equation to its links: what is said to equal what.
 
-use crate::expr::Expr;
-use crate::latex::ast::{Delim, Kind, Link, MatrixEnv, Node, Rel, Sign, Span, Term};
+use crate::latex::ast::{Delim, Kind, Link, MatrixEnv, Node, Rel, Sign, Term};
 use crate::latex::to_latex;
 
-use super::elaborate::Elaborator;
 use super::error::{Error, Result};
-use super::geometric::{as_equation, is_geometric};
-use super::juxtaposition::Item;
-use super::quaternion;
+use super::geometric::is_geometric;
+use super::notes::at_braces;
+use super::ratio;
 use super::scope::Scope;
-use super::value::{Matrix, Value};
-use super::world::World;
 
 /// One side of a link.
 #[derive(Clone, Debug, PartialEq)]
@@ -35,6 +31,8 @@ pub struct Clause {
     pub part: usize,
     /// Whether the left side is the last side of the equation before.
     pub continued: bool,
+    /// The conditions that stand beside it, as in a row of cases.
+    pub when: Vec<Clause>,
 }
 
 impl Clause {
@@ -44,7 +42,9 @@ impl Clause {
             Side::Node(n) => to_latex(n),
             Side::Constant => "\\text{const.}".to_owned(),
         };
-        format!("{} {} {rhs}", to_latex(&self.lhs), relation_latex(self.rel))
+        let when: Vec<String> = self.when.iter().map(Clause::latex).collect();
+        let when = if when.is_empty() { String::new() } else { format!(" \\quad ({})", when.join(", ")) };
+        format!("{} {} {rhs}{when}", to_latex(&self.lhs), relation_latex(self.rel))
     }
 }
 
@@ -53,6 +53,8 @@ impl Clause {
 pub struct Statement {
     /// The clauses in order.
     pub clauses: Vec<Clause>,
+    /// The formulas that no relation stands beside: nothing is said about them.
+    pub bare: Vec<Node>,
     /// The last side, which a following equation that begins with `=` continues.
     pub last: Option<Node>,
     /// The first side of the chain that the last side belongs to.
@@ -68,6 +70,7 @@ pub fn statement(root: &Node, previous: Option<&Statement>) -> Result<Statement>
         builder.continued = true;
     }
     builder.add(root)?;
+    builder.braces(root);
     Ok(builder.out)
 }
 
@@ -80,15 +83,25 @@ struct Builder {
 
 impl Builder {
     fn add(&mut self, node: &Node) -> Result<()> {
+        if let (side, Some(cases @ Node { kind: Kind::Matrix { .. }, .. })) = without_aside(node) {
+            self.begin(&side);
+            return self.aside(cases);
+        }
         match &node.kind {
             Kind::Rows(rows) => rows.iter().try_for_each(|row| self.add(row)),
-            Kind::List(items) => items.iter().try_for_each(|item| self.add(item)),
+            Kind::List(items) => items.iter().enumerate().try_for_each(|(k, item)| {
+                self.add(item)?;
+                match ratio::shared_constant(&items[k..]) {
+                    Some(link) => self.link(link),
+                    None => Ok(()),
+                }
+            }),
             Kind::Marked(_, body) => self.add(body),
             Kind::Annotated { body, .. } if holds_relation(body) => self.add(body),
             Kind::Matrix { env: MatrixEnv::Cases | MatrixEnv::Array, rows }
                 if rows.iter().flatten().any(holds_relation) =>
             {
-                rows.iter().filter_map(|row| row.first()).try_for_each(|cell| self.add(cell))
+                self.rows(rows)
             }
             Kind::Group { open: Delim::None | Delim::Brace, body, .. } if holds_relation(body) => self.add(body),
             Kind::Group { open: Delim::Paren, body, .. } if holds_relation(body) => self.aside(body),
@@ -99,8 +112,49 @@ impl Builder {
             Kind::Text(_) | Kind::Empty => Ok(()),
             _ => {
                 self.begin(node);
+                self.out.bare.push(node.clone());
                 Ok(())
             }
+        }
+    }
+
+    /// A row of an array: the cells behind the first continue it, or say when it is so.
+    fn row(&mut self, cells: &[Node]) -> Result<()> {
+        let before = self.out.clauses.len();
+        let mut open = None;
+        for (k, cell) in cells.iter().enumerate() {
+            if let Some(link) = open.take() {
+                self.link(&Link { rhs: cell.clone(), ..link })?;
+            } else if let (1.., Some(condition)) = (k, condition(cell)) {
+                let conditions = statement(condition, None)?.clauses;
+                self.out.clauses[before..].iter_mut().for_each(|clause| clause.when.extend(conditions.clone()));
+            } else {
+                self.add(cell)?;
+            }
+            open = open_relation(cell);
+        }
+        Ok(())
+    }
+
+    /// The rows of an array: statements of their own; or cases of one that stands before them, `f \begin{cases} > 0 ...`.
+    fn rows(&mut self, rows: &[Vec<Node>]) -> Result<()> {
+        let (last, head) = (self.out.last.clone(), self.out.head.clone());
+        let cases = last.is_some() && rows.iter().all(|row| begins(row));
+        for row in rows {
+            if cases {
+                (self.out.last, self.out.head) = (last.clone(), head.clone());
+            }
+            self.row(row)?;
+        }
+        Ok(())
+    }
+
+    /// What stands at braces is said of what they span.
+    fn braces(&mut self, root: &Node) {
+        for (lhs, link) in at_braces(root) {
+            let rhs = if is_constant(&link.rhs) { Side::Constant } else { Side::Node(link.rhs) };
+            let (part, continued, when) = (self.part, false, Vec::new());
+            self.out.clauses.push(Clause { lhs, rel: link.rel, rhs, part, continued, when });
         }
     }
 
@@ -121,8 +175,10 @@ impl Builder {
     }
 
     fn chain(&mut self, first: Option<&Node>, links: &[Link], node: &Node) -> Result<()> {
+        let folded = ratio::folded(first, links);
+        let (first, links) = folded.as_ref().map_or((first, links), |(f, l)| (f.as_ref(), l.as_slice()));
         match first {
-            Some(first @ Node { kind: Kind::Annotated { .. }, .. }) if holds_relation(first) => self.add(first)?,
+            Some(first) if holds_relation(first) => self.add(first)?,
             Some(first) if !is_words(first) => self.begin(first),
             _ if self.out.last.is_none() => {
                 return Err(Error::unsupported("a relation with nothing before it", &node.span)
@@ -132,8 +188,13 @@ impl Builder {
             _ => {}
         }
         for (k, link) in links.iter().enumerate() {
-            if separates(links, k) {
+            let statements = k == 0 && first.is_some_and(holds_relation);
+            if separates(links, k) || statements && matches!(link.rel, Rel::Implies | Rel::Iff | Rel::ImpliedBy) {
                 self.add(&link.rhs)?;
+                continue;
+            }
+            if link.rel == Rel::Ratio && holds_words(&link.rhs) && !is_constant(&link.rhs) {
+                // What a symbol means, behind a colon.
                 continue;
             }
             if matches!(link.rhs.kind, Kind::Empty) || is_words(&link.rhs) && !is_constant(&link.rhs) {
@@ -149,15 +210,43 @@ impl Builder {
     }
 
     fn link(&mut self, link: &Link) -> Result<()> {
-        let Some(lhs) = self.out.last.clone() else { return Ok(()) };
-        let constant = is_constant(&link.rhs);
+        let Some(mut lhs) = self.out.last.clone() else { return Ok(()) };
+        // A row that the next one continues.
+        self.out.bare.retain(|bare| bare.span != lhs.span);
+        let mut constant = is_constant(&link.rhs);
+        if let Some(difference) = ratio::without_constant(&lhs, &link.rhs) {
+            (lhs, constant) = (difference, true);
+        }
         let rhs = if constant { Side::Constant } else { Side::Node(link.rhs.clone()) };
-        self.out.clauses.push(Clause { lhs, rel: link.rel, rhs, part: self.part, continued: self.continued });
+        self.out.clauses.push(Clause {
+            lhs,
+            rel: link.rel,
+            rhs,
+            part: self.part,
+            continued: self.continued,
+            when: Vec::new(),
+        });
         if !constant {
             self.out.last = Some(link.rhs.clone());
             self.continued = false;
         }
         Ok(())
+    }
+}
+
+/// The condition that a cell behind others states, in brackets or not; none where it continues them.
+fn condition(cell: &Node) -> Option<&Node> {
+    match &cell.kind {
+        Kind::Group { open: Delim::Paren, body, .. } => condition(body),
+        _ => (holds_relation(cell) && !begins_with_relation(cell)).then_some(cell),
+    }
+}
+
+/// The relation that a cell ends with: its right side is the next cell.
+fn open_relation(cell: &Node) -> Option<Link> {
+    match &cell.kind {
+        Kind::Chain { links, .. } => links.last().filter(|link| matches!(link.rhs.kind, Kind::Empty)).cloned(),
+        _ => None,
     }
 }
 
@@ -207,7 +296,7 @@ fn compares(rel: Rel) -> bool {
 }
 
 /// Whether a node is or holds a relation, not counting those within ordinary brackets.
-fn holds_relation(node: &Node) -> bool {
+pub(super) fn holds_relation(node: &Node) -> bool {
     match &node.kind {
         Kind::Chain { .. } => true,
         Kind::Rows(nodes) | Kind::List(nodes) | Kind::Juxt(nodes) => nodes.iter().any(holds_relation),
@@ -218,18 +307,18 @@ fn holds_relation(node: &Node) -> bool {
     }
 }
 
-/// A side without the statement in brackets behind it, and that statement: `f (= g)`, `0 (a \parallel b)`.
+/// A side without the statement behind it, and that statement: `f (= g)`, `0 (a \parallel b)`, `f \begin{cases} > 0 ...`.
 fn without_aside(side: &Node) -> (Node, Option<&Node>) {
     match &side.kind {
         Kind::Juxt(factors) => match factors.split_last() {
-            Some((Node { kind: Kind::Group { open: Delim::Paren, body, .. }, .. }, rest)) if holds_relation(body) => {
+            Some((last, rest)) if aside_of(last).is_some() && !rest.is_empty() => {
                 let kind = if rest.len() == 1 { rest[0].kind.clone() } else { Kind::Juxt(rest.to_vec()) };
                 let end = rest.last().map_or(side.span.end, |n| n.span.end);
-                (Node::new(kind, side.span.start..end), Some(body))
+                (Node::new(kind, side.span.start..end), aside_of(last))
             }
             _ => (side.clone(), None),
         },
-        // Behind the last term of a sum.
+        // Behind the last term of a sum, the last factor of a product.
         Kind::Sum(terms) => match terms.split_last() {
             Some((last, rest)) => {
                 let (node, aside) = without_aside(&last.node);
@@ -238,12 +327,36 @@ fn without_aside(side: &Node) -> (Node, Option<&Node>) {
             }
             None => (side.clone(), None),
         },
+        Kind::Product { first, rest } => match rest.split_last() {
+            Some(((op, last), before)) => {
+                let (node, aside) = without_aside(last);
+                let rest = before.iter().cloned().chain([(*op, node)]).collect();
+                (Node::new(Kind::Product { first: first.clone(), rest }, side.span.clone()), aside)
+            }
+            None => (side.clone(), None),
+        },
         _ => (side.clone(), None),
     }
 }
 
+/// The statement that a last factor is: one in brackets, or cases that begin with relations.
+fn aside_of(factor: &Node) -> Option<&Node> {
+    match &factor.kind {
+        Kind::Group { open: Delim::Paren, body, .. } if holds_relation(body) => Some(body),
+        Kind::Matrix { env: MatrixEnv::Cases | MatrixEnv::Array, rows } if rows.iter().all(|row| begins(row)) => {
+            Some(factor)
+        }
+        _ => None,
+    }
+}
+
+/// Whether a row of an array begins with a relation.
+fn begins(row: &[Node]) -> bool {
+    row.first().is_some_and(begins_with_relation)
+}
+
 /// Whether a side consists of words only.
-fn is_words(node: &Node) -> bool {
+pub(super) fn is_words(node: &Node) -> bool {
     match &node.kind {
         Kind::Text(_) => true,
         Kind::Juxt(factors) => factors.iter().all(is_words),
@@ -251,10 +364,22 @@ fn is_words(node: &Node) -> bool {
     }
 }
 
-/// Whether a side is the word const., perhaps with a name given to it in brackets behind.
-fn is_constant(node: &Node) -> bool {
+/// Whether words stand beside the mathematics of a side.
+fn holds_words(node: &Node) -> bool {
     match &node.kind {
-        Kind::Text(text) => text.trim().trim_end_matches('.').eq_ignore_ascii_case("const") || text.trim() == "一定",
+        Kind::Text(_) => true,
+        Kind::Juxt(factors) => factors.iter().any(holds_words),
+        _ => false,
+    }
+}
+
+/// Whether a side is the word const., perhaps with a name given to it in brackets behind.
+pub(super) fn is_constant(node: &Node) -> bool {
+    match &node.kind {
+        Kind::Text(text) => {
+            let first = text.split_whitespace().next().unwrap_or_default();
+            first.trim_end_matches('.').eq_ignore_ascii_case("const") || first == "一定"
+        }
         Kind::Function(name) => name == "const",
         Kind::Styled(_, body) => is_constant(body),
         Kind::Juxt(factors) => factors.first().is_some_and(is_constant),
@@ -269,206 +394,6 @@ pub fn has_branches(node: &Node) -> bool {
         _ => false,
     };
     here || node.children().into_iter().any(has_branches)
-}
-
-/// A link's sides for one assignment of its free indices.
-#[derive(Clone, Debug)]
-pub struct Instance {
-    /// Which one, as in `i = 2`, where there are several.
-    pub tag: Option<String>,
-    /// The left side.
-    pub lhs: Value,
-    /// The right side; [`Value::Constant`] for the word const.
-    pub rhs: Value,
-}
-
-/// A link understood: both sides for every assignment of the free indices.
-#[derive(Clone, Debug)]
-pub struct TypedLink {
-    /// The relation.
-    pub rel: Rel,
-    /// The sides.
-    pub instances: Vec<Instance>,
-    /// How the left side was read.
-    pub lhs_text: String,
-    /// How the right side was read.
-    pub rhs_text: String,
-}
-
-impl TypedLink {
-    /// The pairs of scalars that the link relates, with a name for each where there are several.
-    pub fn pairs(&self) -> Vec<(Option<String>, Expr, Expr)> {
-        let mut pairs = Vec::new();
-        for instance in &self.instances {
-            let (a, b) = (instance.lhs.components(), instance.rhs.components());
-            let several = a.len() > 1;
-            for (k, (a, b)) in a.into_iter().zip(b).enumerate() {
-                let component = several.then(|| component_name(&instance.lhs, k));
-                let parts: Vec<String> = instance.tag.iter().cloned().chain(component).collect();
-                pairs.push(((!parts.is_empty()).then(|| parts.join(", ")), a, b));
-            }
-        }
-        pairs
-    }
-}
-
-fn component_name(value: &Value, k: usize) -> String {
-    match value {
-        Value::Vector(_) => format!("{} component (inertial)", ["x", "y", "z"][k % 3]),
-        Value::Quaternion(..) => ["scalar part", "x component", "y component", "z component"][k % 4].to_owned(),
-        Value::Matrix(m) if m.cols == 1 => format!("row {}", k + 1),
-        Value::Matrix(m) => format!("entry {},{}", k / m.cols + 1, k % m.cols + 1),
-        _ => format!("part {}", k + 1),
-    }
-}
-
-/// Understands a clause in a world, by a scope. `upper` chooses the branch of ±.
-pub fn understand(world: &mut World, scope: &Scope, clause: &Clause, upper: bool) -> Result<TypedLink> {
-    let mut sides = vec![&clause.lhs];
-    if let Side::Node(rhs) = &clause.rhs {
-        sides.push(rhs);
-    }
-    world.begin_steps();
-    let items: Vec<Item> = sides.iter().map(|n| Item::Factor(n)).collect();
-    let letters = Elaborator::new(world, scope, Vec::new(), upper).unbound_indices(&items);
-    let rel = if is_geometric(clause.rel) { Rel::Eq } else { clause.rel };
-    let mut link = TypedLink { rel, instances: Vec::new(), lhs_text: String::new(), rhs_text: String::new() };
-    for assignment in assignments(scope, &letters, &clause.lhs.span)? {
-        let tag = assignment.iter().map(|(l, v)| format!("{l} = {v}")).collect::<Vec<_>>().join(", ");
-        let mut elaborator = Elaborator::new(world, scope, assignment, upper);
-        let lhs = elaborator.value(&clause.lhs)?;
-        let (rhs, rhs_text) = match &clause.rhs {
-            Side::Constant => (Value::Constant, "const.".to_owned()),
-            Side::Node(node) => {
-                let rhs = elaborator.value(node)?;
-                (rhs.value, rhs.text)
-            }
-        };
-        let (mut left, mut right) = meet(&mut elaborator, lhs.value, rhs, clause)?;
-        if is_geometric(clause.rel) {
-            (left, right) = as_equation(elaborator.world, clause.rel, &left, &right, &clause.lhs.span)?;
-        }
-        link.instances.push(Instance { tag: (!tag.is_empty()).then_some(tag), lhs: left, rhs: right });
-        (link.lhs_text, link.rhs_text) = (lhs.text, rhs_text);
-    }
-    world.check(&clause.lhs.span)?;
-    Ok(link)
-}
-
-/// The value of an expression; where it has free indices, the tuple of its values for all of them.
-///
-/// # Errors
-/// Those of understanding it.
-pub fn every_value(world: &mut World, scope: &Scope, node: &Node) -> Result<Value> {
-    let letters = Elaborator::new(world, scope, Vec::new(), true).unbound_indices(&[Item::Factor(node)]);
-    if letters.is_empty() {
-        return Elaborator::new(world, scope, Vec::new(), true).value(node).map(|typed| typed.value);
-    }
-    let each = assignments(scope, &letters, &node.span)?.into_iter();
-    let values = each.map(|indices| Ok(Elaborator::new(world, scope, indices, true).value(node)?.value));
-    values.collect::<Result<_>>().map(Value::Tuple)
-}
-
-/// Brings the sides of a link to one shape: 0 stands for the null of any shape, a vector beside a column is meant by
-/// its components.
-fn meet(elaborator: &mut Elaborator, lhs: Value, rhs: Value, clause: &Clause) -> Result<(Value, Value)> {
-    let zero = elaborator.world.graph.int(0);
-    let (lhs, rhs) = match (&lhs, &rhs) {
-        (Value::Tuple(_), Value::Vector(_) | Value::Matrix(_)) => (column_of(&lhs), rhs),
-        (Value::Vector(_) | Value::Matrix(_), Value::Tuple(_)) => {
-            let column = column_of(&rhs);
-            (lhs, column)
-        }
-        _ => (lhs, rhs),
-    };
-    let (lhs, rhs) = match quaternion::met(&mut elaborator.world.graph, &lhs, &rhs) {
-        Some(met) if elaborator.scope.quaternions && !is_null(elaborator, &lhs) && !is_null(elaborator, &rhs) => met,
-        _ => (lhs, rhs),
-    };
-    let span = match &clause.rhs {
-        Side::Node(n) => n.span.clone(),
-        Side::Constant => clause.lhs.span.clone(),
-    };
-    Ok(match (lhs, rhs) {
-        (lhs, Value::Constant) => (lhs, Value::Constant),
-        (Value::Scalar(a), Value::Scalar(b)) => (Value::Scalar(a), Value::Scalar(b)),
-        (lhs, rhs) if rhs.is_zero_scalar(&elaborator.world.graph) => {
-            let null = lhs.map(&mut |_| zero);
-            (lhs, null)
-        }
-        (lhs, rhs) if lhs.is_zero_scalar(&elaborator.world.graph) => (rhs.map(&mut |_| zero), rhs),
-        (lhs @ Value::Vector(_), rhs @ Value::Matrix(_)) => (elaborator.as_column(&lhs, &span)?, rhs),
-        (lhs @ Value::Matrix(_), rhs @ Value::Vector(_)) => {
-            let column = elaborator.as_column(&rhs, &span)?;
-            (lhs, column)
-        }
-        (lhs, rhs) => (lhs, rhs),
-    })
-    .and_then(|(lhs, rhs)| {
-        let same = match (&lhs, &rhs) {
-            (_, Value::Constant) => true,
-            (Value::Matrix(a), Value::Matrix(b)) => (a.rows, a.cols) == (b.rows, b.cols),
-            (a, b) => {
-                std::mem::discriminant(a) == std::mem::discriminant(b) && a.components().len() == b.components().len()
-            }
-        };
-        if same {
-            Ok((lhs, rhs))
-        } else {
-            Err(Error::shape(
-                format!("the sides do not meet: {} on the left, {} on the right", lhs.shape(), rhs.shape()),
-                &span,
-            ))
-        }
-    })
-}
-
-fn is_null(elaborator: &Elaborator, value: &Value) -> bool {
-    value.is_zero_scalar(&elaborator.world.graph)
-}
-
-/// The column that a tuple of numbers beside a vector stands for; anything else as it is.
-fn column_of(tuple: &Value) -> Value {
-    match tuple {
-        Value::Tuple(items) if items.iter().all(|item| matches!(item, Value::Scalar(_))) => {
-            Value::Matrix(Matrix { rows: items.len(), cols: 1, data: tuple.components() })
-        }
-        other => other.clone(),
-    }
-}
-
-/// The most terms of a sum, and instances of an equation: each costs time, and a handful shows what any number does.
-pub(super) const MOST_ASSIGNMENTS: i128 = 10_000;
-
-/// All assignments of values to indices; one empty assignment where there are none.
-///
-/// # Errors
-/// There are too many.
-pub(super) fn assignments(scope: &Scope, letters: &[String], span: &Span) -> Result<Vec<Vec<(String, i64)>>> {
-    let mut all = vec![Vec::new()];
-    for letter in letters {
-        let Some((from, to)) = scope.index(letter) else { continue };
-        let count = (i128::from(to) - i128::from(from) + 1) * all.len() as i128;
-        if count > MOST_ASSIGNMENTS {
-            return Err(too_many(&format!("what runs over {}", letters.join(", ")), count, span));
-        }
-        let mut next = Vec::new();
-        for assignment in &all {
-            for v in from..=to {
-                let mut longer: Vec<(String, i64)> = assignment.clone();
-                longer.push((letter.clone(), v));
-                next.push(longer);
-            }
-        }
-        all = next;
-    }
-    Ok(all)
-}
-
-/// More assignments than are written out.
-pub(super) fn too_many(what: &str, count: i128, span: &Span) -> Error {
-    Error::limit(format!("{what} has {count} terms; at most {MOST_ASSIGNMENTS} are written out"), span)
-        .with_help("let the index run over a handful of values: 'i' = { index = [1, 3] }")
 }
 
 /// The LaTeX of a relation.

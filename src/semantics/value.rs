@@ -3,6 +3,7 @@
 use crate::expr::{Expr, Graph};
 use crate::latex::ast::Span;
 
+use super::complex;
 use super::error::{Error, Result};
 
 /// A rectangular array of scalars, row by row.
@@ -32,6 +33,8 @@ pub enum Value {
     Vector([Expr; 3]),
     /// A quaternion: a number and a vector.
     Quaternion(Expr, [Expr; 3]),
+    /// A complex number, by its real and imaginary part.
+    Complex(Expr, Expr),
     /// An array of numbers, a column of components among them.
     Matrix(Matrix),
     /// Several values.
@@ -47,6 +50,7 @@ impl Value {
             Value::Scalar(_) => "a scalar".into(),
             Value::Vector(_) => "a vector".into(),
             Value::Quaternion(..) => "a quaternion".into(),
+            Value::Complex(..) => "a complex number".into(),
             Value::Matrix(m) if m.cols == 1 => format!("a column of {}", m.rows),
             Value::Matrix(m) => format!("a {}x{} matrix", m.rows, m.cols),
             Value::Tuple(items) => format!("a tuple of {}", items.len()),
@@ -60,6 +64,7 @@ impl Value {
             Value::Scalar(e) => vec![*e],
             Value::Vector(v) => v.to_vec(),
             Value::Quaternion(s, v) => std::iter::once(*s).chain(*v).collect(),
+            Value::Complex(re, im) => vec![*re, *im],
             Value::Matrix(m) => m.data.clone(),
             Value::Tuple(items) => items.iter().flat_map(Value::components).collect(),
             Value::Constant => Vec::new(),
@@ -72,6 +77,7 @@ impl Value {
             Value::Scalar(e) => Value::Scalar(f(*e)),
             Value::Vector(v) => Value::Vector(v.map(f)),
             Value::Quaternion(s, v) => Value::Quaternion(f(*s), v.map(f)),
+            Value::Complex(re, im) => Value::Complex(f(*re), f(*im)),
             Value::Matrix(m) => {
                 Value::Matrix(Matrix { rows: m.rows, cols: m.cols, data: m.data.iter().map(|e| f(*e)).collect() })
             }
@@ -88,6 +94,10 @@ impl Value {
 
 /// Sum or difference of two values.
 pub fn add(graph: &mut Graph, a: &Value, b: &Value, minus: bool, span: &Span) -> Result<Value> {
+    if let Some(((a, b), (c, d))) = complex::met(graph, a, b) {
+        let mut op = |x: Expr, y: Expr| if minus { graph.sub(x, y) } else { graph.add(x, y) };
+        return Ok(Value::Complex(op(a, c), op(b, d)));
+    }
     let mut op = |x: Expr, y: Expr| if minus { graph.sub(x, y) } else { graph.add(x, y) };
     match (a, b) {
         (Value::Scalar(x), Value::Scalar(y)) => Ok(Value::Scalar(op(*x, *y))),
@@ -121,6 +131,10 @@ pub fn multiply(graph: &mut Graph, a: &Value, b: &Value, span: &Span) -> Result<
     match (a, b) {
         (Value::Scalar(x), other) => Ok(other.map(&mut |e| graph.mul(*x, e))),
         (other, Value::Scalar(y)) => Ok(other.map(&mut |e| graph.mul(e, *y))),
+        (Value::Complex(a, b), Value::Complex(c, d)) => {
+            let (re, im) = complex::product(graph, (*a, *b), (*c, *d));
+            Ok(Value::Complex(re, im))
+        }
         (Value::Matrix(x), Value::Matrix(y)) if x.cols == y.rows => Ok(Value::Matrix(matrix_product(graph, x, y))),
         (Value::Vector(_), Value::Vector(_)) => Err(Error::shape("two vectors stand side by side", span)
             .with_help("write a dot product with \\cdot or a cross product with \\times")),
@@ -139,8 +153,12 @@ fn matrix_product(graph: &mut Graph, x: &Matrix, y: &Matrix) -> Matrix {
     Matrix { rows: x.rows, cols: y.cols, data }
 }
 
-/// The quotient of a value by a scalar.
+/// The quotient of a value by a number.
 pub fn divide(graph: &mut Graph, a: &Value, b: &Value, span: &Span) -> Result<Value> {
+    if let (Value::Complex(c, d), Some(a)) = (b, complex::parts(graph, a)) {
+        let (re, im) = complex::quotient(graph, a, (*c, *d));
+        return Ok(Value::Complex(re, im));
+    }
     match b {
         Value::Scalar(y) => Ok(a.map(&mut |e| graph.div(e, *y))),
         _ => Err(Error::shape(format!("cannot divide by {}", b.shape()), span)),

@@ -77,10 +77,19 @@ pub struct World {
     triads: HashMap<String, [[Expr; 3]; 3]>,
     joints: Option<Vec<Joint>>,
     pub(super) history: History,
+    /// What is equal at the moment that is spoken of: a symbol and its value there.
+    pub moment: Vec<(Expr, Expr)>,
+    /// What is positive where the sums that stand for means are precise.
+    pub(super) precise: Vec<Expr>,
     steps: usize,
 }
 
 impl World {
+    /// What must be positive at a state, so that sums which stand for means are precise there.
+    pub fn precise(&self) -> &[Expr] {
+        &self.precise
+    }
+
     /// An empty world.
     pub fn new() -> Self {
         World::default()

@@ -5,9 +5,10 @@ use rug::Float;
 
 use super::krawczyk::{Equations, Unproved};
 use super::*;
+use crate::check::Options;
 use crate::check::book::{Book, Version};
 use crate::check::claim::{Claim, Source};
-use crate::check::judge::{Options, judge, judge_version};
+use crate::check::judge::{judge, judge_version};
 use crate::check::random::Random;
 use crate::check::verdict::Verdict;
 use crate::expr::Graph;

@@ -8,7 +8,9 @@ use std::collections::HashMap;
 use crate::expr::{Elliptic, Expr, Func, Node, SymId};
 use crate::latex::ast::Rel;
 use crate::semantics::units::Dimension;
-use crate::semantics::{Clause, Elaborator, Joint, PrintedTerm, Quantity, Role, Scope, Value, World, printed_terms};
+use crate::semantics::{
+    Clause, Elaborator, Joint, PrintedTerm, Quantity, Role, Scope, Value, World, is_geometric, printed_terms,
+};
 
 use super::affine::Affine;
 
@@ -68,7 +70,8 @@ impl LinkReading {
 
 /// Reads a clause's dimensions; `None` where it cannot be understood or does not compare quantities.
 pub fn read(scope: &Scope, clause: &Clause, mapped: bool, quantities: &mut Quantities) -> Option<LinkReading> {
-    if !(compares(clause.rel) || mapped && clause.rel == Rel::To) {
+    let geometric = is_geometric(clause.rel);
+    if !(compares(clause.rel) || geometric || mapped && clause.rel == Rel::To) {
         return None;
     }
     let mut world = World::with_joints();
@@ -79,9 +82,13 @@ pub fn read(scope: &Scope, clause: &Clause, mapped: bool, quantities: &mut Quant
     let terms: Vec<PrintedTerm> = terms.into_iter().filter(|t| !t.unit).collect();
     let left = terms.iter().filter(|t| t.left).count();
     let open = terms.iter().map(|t| t.open.clone()).collect();
-    let top = Joint { role: Role::Sum, parts: terms.into_iter().map(|t| (t.latex, t.value)).collect() };
+    let parts = |terms: Vec<PrintedTerm>| terms.into_iter().map(|t| (t.latex, t.value)).collect();
+    // Directions are compared whatever the dimensions: each side is a sum of its own.
+    let (apart, together) = terms.into_iter().partition(|t| geometric && t.left);
+    let aside = Joint { role: Role::Sum, parts: parts(apart) };
+    let top = Joint { role: Role::Sum, parts: parts(together) };
 
-    let mut walk = Walk::new(&world, quantities);
+    let mut walk = Walk::new(&world, scope.quaternions, quantities);
     let mut read: Vec<JointReading> = Vec::new();
     for joint in &joints {
         // A sum over particles takes the same terms down for each of them, and an exponent 2 needs no check.
@@ -94,7 +101,9 @@ pub fn read(scope: &Scope, clause: &Clause, mapped: bool, quantities: &mut Quant
             read.extend(walk.joint(joint));
         }
     }
+    read.extend(Some(aside).filter(|aside| aside.parts.len() > 1).and_then(|aside| walk.joint(&aside)));
     let top = walk.joint(&top)?;
+    let (left, open) = if geometric { (0, vec![None; top.parts.len()]) } else { (left, open) };
     read.push(JointReading { left, open, ..top });
     Some(LinkReading { latex: clause.latex(), joints: read, implied: walk.implied, units })
 }
@@ -109,20 +118,27 @@ struct Walk<'w> {
     world: &'w World,
     quantities: &'w mut Quantities,
     time: Affine,
+    /// Whether numbers and vectors may be added.
+    quaternions: bool,
     known: HashMap<Expr, Option<Affine>>,
     implied: Vec<(Affine, Affine)>,
 }
 
 impl<'w> Walk<'w> {
-    fn new(world: &'w World, quantities: &'w mut Quantities) -> Self {
+    fn new(world: &'w World, quaternions: bool, quantities: &'w mut Quantities) -> Self {
         let t = world.graph.find("t").and_then(|t| world.facts(t).quantity?.dimension);
         let time = Affine::of(t.unwrap_or(Dimension::TIME));
-        Walk { world, quantities, time, known: HashMap::new(), implied: Vec::new() }
+        Walk { world, quantities, time, quaternions, known: HashMap::new(), implied: Vec::new() }
     }
 
     /// `None` where the parts have different shapes: that is another finding.
     fn joint(&mut self, joint: &Joint) -> Option<JointReading> {
         let zero = |v: &Value| matches!(v, Value::Scalar(e) if self.world.graph.is_zero(*e));
+        let holds = |shape: fn(&Value) -> bool| joint.parts.iter().any(|(_, v)| shape(v) && !zero(v));
+        let (numbers, vectors) = (holds(|v| matches!(v, Value::Scalar(_))), holds(|v| matches!(v, Value::Vector(_))));
+        if self.quaternions && (numbers && vectors || holds(|v| matches!(v, Value::Quaternion(..)))) {
+            return self.quaternions(joint);
+        }
         let shapes = joint.parts.iter().filter(|(_, v)| !zero(v)).map(|(_, v)| v.components().len());
         let count = shapes.clone().max().unwrap_or(0);
         if shapes.min().unwrap_or(0) != count {
@@ -139,12 +155,38 @@ impl<'w> Walk<'w> {
         Some(JointReading { role: joint.role.clone(), parts, left: 0, open, components })
     }
 
+    /// Numbers and vectors beside quaternions are their scalar and vector parts.
+    fn quaternions(&mut self, joint: &Joint) -> Option<JointReading> {
+        let mut components = vec![Vec::new(); 4];
+        for (part, (_, value)) in joint.parts.iter().enumerate() {
+            let from = match value {
+                Value::Scalar(_) | Value::Quaternion(..) => 0,
+                Value::Vector(_) => 1,
+                _ => return None,
+            };
+            for (component, e) in components[from..].iter_mut().zip(value.components()) {
+                component.extend(self.dimension(e).map(|a| (part, a)));
+            }
+        }
+        let parts: Vec<String> = joint.parts.iter().map(|(latex, _)| latex.clone()).collect();
+        let open = vec![None; parts.len()];
+        Some(JointReading { role: joint.role.clone(), parts, left: 0, open, components })
+    }
+
+    /// What an integral along the motion integrates, or what a value at its start is the value of.
+    fn within(&self, e: Expr) -> Option<(Expr, bool)> {
+        match *self.world.graph.node(e) {
+            Node::Symbol(s) => self.world.remembered(self.world.graph.info(s).base),
+            _ => None,
+        }
+    }
+
     /// Operands before operations, without recursion.
     fn dimension(&mut self, e: Expr) -> Option<Affine> {
         let mut stack = vec![e];
         while let Some(&at) = stack.last() {
-            let missing: Vec<Expr> =
-                self.world.graph.node(at).operands().filter(|o| !self.known.contains_key(o)).collect();
+            let operands = self.world.graph.node(at).operands().chain(self.within(at).map(|(e, _)| e));
+            let missing: Vec<Expr> = operands.filter(|o| !self.known.contains_key(o)).collect();
             if missing.is_empty() || self.known.contains_key(&at) {
                 stack.pop();
                 if !self.known.contains_key(&at) {
@@ -167,7 +209,13 @@ impl<'w> Walk<'w> {
         match *self.world.graph.node(e) {
             Node::Rational(0, _) => None,
             Node::Rational(..) | Node::Pi | Node::E => Some(number),
-            Node::Symbol(s) => self.symbol(s),
+            Node::Symbol(s) => match self.within(e) {
+                None => self.symbol(s),
+                Some((rate, integral)) => {
+                    let order = i128::from(self.world.graph.info(s).order) - i128::from(integral);
+                    self.of(rate)?.over(&self.time.to_the((order, 1))?)
+                }
+            },
             Node::Neg(a) | Node::Call(Func::Abs, a) => self.of(a),
             Node::Add(a, b) | Node::Sub(a, b) => {
                 self.imply(self.of(a), self.of(b));

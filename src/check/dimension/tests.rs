@@ -187,3 +187,36 @@ fn what_holds_in_the_bundled_notes_has_no_mismatch() {
     let counts = [DimensionStatus::Ok, DimensionStatus::Mismatch, DimensionStatus::Unchecked].map(count);
     insta::assert_debug_snapshot!(counts);
 }
+
+#[test]
+fn integrals_along_the_motion_have_the_dimension_of_what_is_integrated_times_the_time() {
+    use DimensionStatus::{Mismatch, Ok};
+    let formulas = [
+        r"m v = \int_0^t m g\,dt",
+        r"m v = \int_0^t m v\,dt",
+        r"\frac{1}{2} m v^2 - m g (x)_0 = \int \mathbf{F} \cdot d\mathbf{r}",
+        r"\frac{1}{2} m v^2 - m g (\dot{x})_0 = \int \mathbf{F} \cdot d\mathbf{r}",
+    ];
+    assert_eq!(statuses(&formulas), [Ok, Mismatch, Ok, Mismatch]);
+}
+
+#[test]
+fn directions_are_compared_whatever_the_dimensions() {
+    use DimensionStatus::{Mismatch, Ok};
+    let formulas =
+        [r"\mathbf{F} - m \ddot{\mathbf{r}} \parallel \mathbf{r}", r"\mathbf{r} \perp \mathbf{F} - m \dot{\mathbf{r}}"];
+    assert_eq!(statuses(&formulas), [Ok, Mismatch]);
+}
+
+#[test]
+fn numbers_and_vectors_are_the_parts_of_quaternions() {
+    use DimensionStatus::{Mismatch, Ok};
+    let formulas =
+        [r"h + \mathbf{r} = \mathbf{r} + l", r"v + \mathbf{r} = \mathbf{r} + l", r"h + \mathbf{r} = \mathbf{F} + l"];
+    let operators = "'S' = { same = '\\operatorname{Sc}' }\n";
+    let (problems, book) = book_of(&format!("[symbols]{SYMBOLS}{operators}"), &formulas);
+    assert_eq!(problems, Vec::<String>::new());
+    let survey = Survey::new(&book);
+    let found: Vec<_> = (0..3).map(|k| survey.judge(k, Version::Printed).status).collect();
+    assert_eq!(found, [Ok, Mismatch, Mismatch]);
+}

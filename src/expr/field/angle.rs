@@ -6,7 +6,8 @@
 //! construction. Whole and half multiples of π are exact; other fractions of π are an atom like any other. What is no
 //! sum of monomials is an atom as a whole.
 
-use std::collections::{BTreeMap, HashMap};
+use rustc_hash::FxHashMap as HashMap;
+use std::collections::BTreeMap;
 
 use crate::expr::graph::{Expr, Graph, Node};
 use crate::expr::ratio::{self, Ratio};
@@ -108,7 +109,7 @@ fn take_quarters(graph: &Graph, sum: &mut Sum) -> u8 {
 
 /// The sums of monomials that the expressions and their parts are.
 fn sums(graph: &Graph, es: &[Expr]) -> HashMap<Expr, Sum> {
-    let mut sums: HashMap<Expr, Sum> = HashMap::new();
+    let mut sums: HashMap<Expr, Sum> = HashMap::default();
     for e in graph.reachable(es) {
         let of = |a: Expr| sums.get(&a);
         let sum = match *graph.node(e) {

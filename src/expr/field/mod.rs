@@ -35,7 +35,8 @@ pub use degree::{Degree, Element, uniform};
 use super::graph::{Expr, Graph, Node, SymId};
 use crate::number::{Elliptic, F61, Func};
 use angle::Angles;
-use std::collections::{BTreeSet, HashMap};
+use rustc_hash::FxHashMap as HashMap;
+use std::collections::BTreeSet;
 
 /// Expressions to be evaluated in the field.
 pub struct Field<'g> {
