@@ -164,7 +164,6 @@ impl<'b> Source<'b> {
         }
         let restated = restates(&branches, &given.equal);
         given.equal.extend(world.integral_rates());
-        given.equal.extend(world.moment.iter().copied());
         given.ordered.extend(world.precise().iter().map(|e| (Rel::Gt, *e)));
         let small = self.small(&mut world)?;
         let condition = self.condition(&mut world)?;
@@ -203,6 +202,12 @@ impl<'b> Source<'b> {
             premises.keep_related(&world.graph, &targets, mentioned);
         }
         premises.close_in_time(&mut world.graph, &targets);
+        // What is so at one moment only has no rate.
+        for (symbol, value) in world.moment.clone() {
+            let difference = world.graph.sub(symbol, value);
+            let difference = premises.resolve(&mut world.graph, difference);
+            premises.residuals.push(difference);
+        }
         world.check(&clause.lhs.span).map_err(Obstacle::Link)?;
         let (lhs_text, rhs_text) = typed.first().map(|l| (l.lhs_text.clone(), l.rhs_text.clone())).unwrap_or_default();
         let rel = clause.rel;

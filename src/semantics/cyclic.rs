@@ -95,6 +95,8 @@ fn next(scope: &Scope, node: &Node, by: usize) -> Option<Node> {
 
 #[cfg(test)]
 mod tests {
+    use std::collections::HashMap;
+
     use super::super::World;
     use super::super::testing::{scope, value};
 
@@ -109,8 +111,8 @@ mod tests {
         points.iter().all(|point| {
             let names = ["a", "b", "c", "d", "x_{1}", "x_{2}", "x_{3}"];
             let values = names.iter().zip(point).filter_map(|(name, v)| Some((world.graph.find(name)?, *v)));
-            let values = values.collect::<Vec<_>>().into_iter();
-            let map: std::collections::HashMap<_, _> = values.map(|(s, v)| (s, world.graph.int(v))).collect();
+            let values: Vec<_> = values.collect();
+            let map: HashMap<_, _> = values.into_iter().map(|(s, v)| (s, world.graph.int(v))).collect();
             let at = world.graph.substitute(e, &map);
             world.graph.is_zero(at)
         })
