@@ -200,3 +200,10 @@ fn what_only_restates_a_premise_is_told() {
     assert!(!restated("x - a = b", "where = ['a + b = x']"));
     assert!(!restated("x = a + b = b + x - b", "where = ['a + b = x']"));
 }
+
+#[test]
+fn a_rate_at_a_moment_is_that_of_the_motion_then() {
+    let law = r"where = ['\dot{x} = x^2']";
+    tells_apart(law, r"\left. \frac{dx}{dt} \right|_{x = a} = a^2", r"\left. \frac{dx}{dt} \right|_{x = a} = a^3");
+    assert_eq!(verdict(r"\left. \frac{dx}{dt} \right|_{x = a} = 0", law), Verdict::Fails);
+}
