@@ -216,7 +216,7 @@ fn square<N: Number>(a: &[N], to: &mut N, k: usize, desk: &mut Desk<N>) {
     desk.clear();
     desk.add(a, a, k, 0..k.div_ceil(2));
     desk.double();
-    if k % 2 == 0 {
+    if k.is_multiple_of(2) {
         desk.term.set_mul(&a[k / 2], &a[k / 2]);
         to.set_add(&desk.sum, &desk.term);
     } else {

@@ -68,7 +68,7 @@ fn every_function_has_its_series() {
         // The rate of the series is f of the series, by Jet's own recurrences.
         let jet = crate::number::Jet::new(start, expansion.of(0)[1..].iter().copied());
         let tape = crate::expr::Tape::compile(&graph, &[rate_of]);
-        let of = tape.eval(&[jet.clone()], &jet.context(), &mut crate::expr::Workspace::new())[0].clone();
+        let of = tape.eval(std::slice::from_ref(&jet), &jet.context(), &mut crate::expr::Workspace::new())[0].clone();
         for k in 0..12 {
             let (rate, f) = (expansion.of(0)[k + 1].times(&start.like(k as f64 + 1.0)), &of.coefficients()[k]);
             let error = rate.minus(f).log2_abs() - f.log2_abs().max(rate.log2_abs()).max(-40.0);
