@@ -113,7 +113,9 @@ impl Elaborator<'_> {
                 .with_help("the inverse of sn(u, k) is \\operatorname{F}(\\arcsin x, k)"));
         }
         let value = self.elliptic_value(named, &x, node)?;
-        let text = format!("{}({})", self.world.graph.display(value), x.len());
+        let shown = self.world.graph.display(value);
+        let is_quotient = matches!(self.world.graph.node(value), crate::expr::Node::Div(..));
+        let text = if is_quotient { format!("({shown})") } else { shown };
         let result = self.with_power(Typed::new(Value::Scalar(value), text), power, &node.span)?;
         Ok(Some((result, length + own)))
     }
