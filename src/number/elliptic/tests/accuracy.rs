@@ -138,8 +138,8 @@ fn double_doubles() {
 #[test]
 #[ignore = "takes minutes"]
 fn many_arguments() {
-    rounds_as_promised::<f64>("f64", 5000);
-    rounds_as_promised::<Df64>("Df64", 5000);
+    rounds_as_promised::<f64>("f64", 8000);
+    rounds_as_promised::<Df64>("Df64", 8000);
 }
 
 /// A number of 200 bits against one of 500, at the same arguments.
