@@ -3,6 +3,8 @@
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
+mod common;
+
 use std::path::Path;
 
 use kenzan::check::verdict::{Judgement, Verdict};
@@ -27,12 +29,7 @@ const SYMBOLS: &str = r#"<!-- kenzan
 "#;
 
 fn one(latex: &str, annotation: &str) -> Judgement {
-    let equation = format!("$$ {latex} \\tag{{1}} $$\n<!-- kenzan\n{annotation}\nbecause = \"a test\"\n-->\n");
-    let document = document::parse(Path::new("notes.md"), &format!("# Notes\n\n{SYMBOLS}\n{equation}"));
-    assert!(document.problems.is_empty(), "{:?}", document.problems);
-    let book = Book::new(&document);
-    assert!(book.problems.is_empty(), "{:?}", book.problems);
-    check::judge(&book, 0, &Options::default())
+    check::judge(&common::book(SYMBOLS, latex, annotation), 0, &Options::default())
 }
 
 fn verdict(latex: &str, annotation: &str) -> Verdict {

@@ -4,11 +4,10 @@
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-use std::path::Path;
+mod common;
 
 use kenzan::check::verdict::{Judgement, Verdict};
-use kenzan::check::{self, Book, Options};
-use kenzan::document;
+use kenzan::check::{self, Options};
 
 const SYMBOLS: &str = r#"<!-- kenzan
 [symbols]
@@ -24,12 +23,7 @@ const SYMBOLS: &str = r#"<!-- kenzan
 "#;
 
 fn one(latex: &str, annotation: &str) -> Judgement {
-    let equation = format!("$$ {latex} \\tag{{1}} $$\n<!-- kenzan\n{annotation}\nbecause = \"a test\"\n-->\n");
-    let document = document::parse(Path::new("notes.md"), &format!("# Notes\n\n{SYMBOLS}\n{equation}"));
-    assert!(document.problems.is_empty(), "{:?}", document.problems);
-    let book = Book::new(&document);
-    assert!(book.problems.is_empty(), "{:?}", book.problems);
-    check::judge(&book, 0, &Options::default())
+    check::judge(&common::book(SYMBOLS, latex, annotation), 0, &Options::default())
 }
 
 fn verdict(latex: &str, annotation: &str) -> Verdict {

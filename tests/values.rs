@@ -3,12 +3,11 @@
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 
-use std::path::Path;
+mod common;
 
 use kenzan::check::verdict::{Judgement, Verdict};
 use kenzan::check::{self, Book, Options};
 use kenzan::diagnose::sensitivity::sensitivity;
-use kenzan::document;
 
 const SYMBOLS: &str = r#"<!-- kenzan
 canonical = { p = 'q', P = 'Q' }
@@ -26,12 +25,7 @@ canonical = { p = 'q', P = 'Q' }
 "#;
 
 fn book(latex: &str, annotation: &str) -> Book {
-    let equation = format!("$$ {latex} \\tag{{1}} $$\n<!-- kenzan\nbecause = \"a test\"\n{annotation}\n-->\n");
-    let document = document::parse(Path::new("notes.md"), &format!("# Notes\n\n{SYMBOLS}\n{equation}"));
-    assert!(document.problems.is_empty(), "{:?}", document.problems);
-    let book = Book::new(&document);
-    assert!(book.problems.is_empty(), "{:?}", book.problems);
-    book
+    common::book(SYMBOLS, latex, annotation)
 }
 
 fn one(latex: &str, annotation: &str) -> Judgement {
