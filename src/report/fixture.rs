@@ -9,23 +9,7 @@ use crate::check::verdict::{
 
 /// A link with a verdict and nothing else.
 pub(super) fn link(latex: &str, verdict: Verdict) -> LinkJudgement {
-    LinkJudgement {
-        latex: latex.into(),
-        verdict,
-        strength: None,
-        reason: None,
-        residual: None,
-        bits: None,
-        states: 0,
-        failing_states: 0,
-        counterexample: None,
-        order: None,
-        problem: None,
-        exact: None,
-        inexact: None,
-        lost_bits: None,
-        restated: false,
-    }
+    LinkJudgement { verdict, ..LinkJudgement::unjudged(latex.into()) }
 }
 
 /// A link that holds.
