@@ -28,4 +28,6 @@ pub mod number;
 pub mod report;
 pub mod scene;
 pub mod semantics;
+#[cfg(test)]
+mod testing;
 pub mod verify;

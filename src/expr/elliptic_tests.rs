@@ -48,7 +48,7 @@ fn any_function() -> impl Strategy<Value = Elliptic> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 600, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(crate::testing::properties(600))]
 
     /// The symbolic derivative, that of dual numbers, and the slope between near points, with respect to every argument.
     #[test]

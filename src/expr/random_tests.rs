@@ -82,7 +82,7 @@ fn agree(a: &Tracked<Df64>, b: &Tracked<Df64>) -> bool {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 400, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(crate::testing::properties(400))]
 
     /// Bit for bit, in machine numbers (sine and cosine together are the same as apart).
     #[test]

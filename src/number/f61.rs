@@ -128,7 +128,7 @@ mod tests {
     }
 
     proptest! {
-        #![proptest_config(ProptestConfig { failure_persistence: None, ..ProptestConfig::default() })]
+        #![proptest_config(crate::testing::properties(256))]
 
         #[test]
         fn arithmetic_is_that_of_remainders(a in element(), b in element(), n in any::<u64>()) {

@@ -70,7 +70,7 @@ fn bundled() -> String {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 400, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(crate::testing::properties(400))]
 
     #[test]
     fn random_text_is_survived(source in any::<String>()) {

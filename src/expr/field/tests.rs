@@ -288,7 +288,7 @@ fn powers(x: F61, d: u64, factor: F61) -> Vec<F61> {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { failure_persistence: None, cases: 200, ..ProptestConfig::default() })]
+    #![proptest_config(crate::testing::properties(200))]
 
     /// On a line, f = P/Q with P and Q of the degrees that were promised: P - f Q = 0 has a solution, although there
     /// are more points than coefficients.

@@ -282,7 +282,7 @@ fn check_source(source: &str) {
 }
 
 proptest! {
-    #![proptest_config(ProptestConfig { cases: 1500, failure_persistence: None, ..ProptestConfig::default() })]
+    #![proptest_config(crate::testing::properties(1500))]
 
     #[test]
     fn trees_come_back_from_their_latex(tree in tree()) {
