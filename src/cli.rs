@@ -8,6 +8,7 @@ use std::time::{Duration, Instant};
 
 use clap::{Parser, Subcommand, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
+use rayon::prelude::*;
 
 use crate::check::Options;
 use crate::document::Problem;
@@ -176,7 +177,7 @@ fn verify_command(request: &Request, out: &std::path::Path, printed: Printed) ->
     let total: usize = documents.iter().map(|d| d.equations().count()).sum();
     let bar = progress(total);
     let verified: Vec<Verified> =
-        documents.into_iter().map(|document| verify::verify(document, request, &|| bar.inc(1))).collect();
+        documents.into_par_iter().map(|document| verify::verify(document, request, &|| bar.inc(1))).collect();
     bar.finish_and_clear();
     check_labels(request, &verified)?;
     for v in &verified {
