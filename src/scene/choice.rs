@@ -8,6 +8,7 @@
 
 use super::model::{About, AnyModel, Cost, Kind, Task};
 use super::precise::{Arithmetic, Values};
+use super::yardstick::Yardstick;
 use super::{Scene, SceneError};
 
 /// The most times at which models are compared.
@@ -75,13 +76,6 @@ pub struct Outcome {
     pub cost: Cost,
 }
 
-/// What errors are measured against.
-struct Yardstick {
-    values: Values,
-    doubt: f64,
-    what: String,
-}
-
 /// A run that is measured.
 struct Attempt {
     values: Values,
@@ -108,7 +102,7 @@ pub fn choose(request: &Request) -> Result<Outcome, SceneError> {
     let mut refused: Vec<Refusal> = Vec::new();
     let mut nearest: Option<Outcome> = None;
     for (step, arithmetic) in chooser.ladder().into_iter().enumerate() {
-        let yardstick = match chooser.yardstick(arithmetic) {
+        let yardstick = match Yardstick::of(&chooser.probed(), arithmetic) {
             Ok(yardstick) => yardstick,
             Err(why) if step == 0 => return Err(why),
             Err(_) => break,
@@ -207,6 +201,11 @@ impl<'a> Chooser<'a> {
         Task { scene: self.request.scene, parameters, quantities: &self.request.quantities, times, tolerance }
     }
 
+    /// What is compared.
+    fn probed(&self) -> Task<'_> {
+        self.task(&self.request.parameters, &self.probe_times, self.request.error)
+    }
+
     /// The number types to try, from cheap to strong.
     fn ladder(&self) -> Vec<Arithmetic> {
         #[cfg(feature = "rug")]
@@ -219,70 +218,6 @@ impl<'a> Chooser<'a> {
         }
         #[cfg(not(feature = "rug"))]
         vec![Arithmetic::Machine, Arithmetic::Double]
-    }
-
-    /// What values in this number type are measured against.
-    fn yardstick(&self, arithmetic: Arithmetic) -> Result<Yardstick, SceneError> {
-        let stronger = match arithmetic {
-            Arithmetic::Machine => Arithmetic::Double,
-            #[cfg(feature = "rug")]
-            Arithmetic::Double => Arithmetic::Bits(256),
-            #[cfg(not(feature = "rug"))]
-            Arithmetic::Double => Arithmetic::Double,
-            #[cfg(feature = "rug")]
-            Arithmetic::Bits(bits) => Arithmetic::Bits(bits.saturating_mul(2)),
-        };
-        let models = self.request.scene.models.iter().copied().filter(|m| m.gives(&self.request.quantities));
-        let (exact, other): (Vec<_>, Vec<_>) = models.partition(|m| m.about().kind == Kind::Exact);
-        let mut why = SceneError::NotGiven { model: "any", what: "these quantities".into() };
-        for model in exact {
-            match self.closed(model, stronger) {
-                Ok(yardstick) => return Ok(yardstick),
-                Err(error) => why = error,
-            }
-        }
-        // The closed form does not apply: the fullest equations do.
-        for model in other.into_iter().rev().filter(|m| m.about().kind == Kind::Integrated) {
-            match self.integrated(model, stronger) {
-                Ok(yardstick) => return Ok(yardstick),
-                Err(error) => why = error,
-            }
-        }
-        Err(why)
-    }
-
-    /// A closed form, with how far it moves when the parameters do.
-    fn closed(&self, model: &dyn AnyModel, arithmetic: Arithmetic) -> Result<Yardstick, SceneError> {
-        let parameters = &self.request.parameters;
-        let (values, _) = model.run(&self.task(parameters, &self.probe_times, 0.0), arithmetic)?;
-        if values.to_f64().iter().flatten().any(|x| !x.is_finite()) {
-            let why = format!("the model `{}` gives no finite values here", model.about().name);
-            return Err(SceneError::regime(why, "leave the model to be chosen"));
-        }
-        let by = f64::exp2(-49.0);
-        let mut moves: f64 = 0.0;
-        for pattern in [0b0110_1001_usize, 0b0101_0011] {
-            let sign = |i: usize| if pattern >> (i % 8) & 1 == 1 { by } else { -by };
-            let moved: Vec<f64> = parameters.iter().enumerate().map(|(i, p)| p * (1.0 + sign(i))).collect();
-            // Where the moved motion is one of another kind, nothing is known of how far this one moves.
-            let other = model.run(&self.task(&moved, &self.probe_times, 0.0), Arithmetic::Double);
-            moves = moves.max(other.map_or(1.0, |(other, _)| values.distance(&other)));
-        }
-        // Eight units of the roundoff for one of the parameters' change.
-        let doubt = moves * f64::exp2(49.0 + 3.0 - f64::from(arithmetic.bits()));
-        let what = format!("the model `{}` in {}", model.about().name, arithmetic.name());
-        Ok(Yardstick { values, doubt, what })
-    }
-
-    /// Integrated equations, with how far they move for a looser tolerance.
-    fn integrated(&self, model: &dyn AnyModel, arithmetic: Arithmetic) -> Result<Yardstick, SceneError> {
-        let parameters = &self.request.parameters;
-        let tight = (self.request.error * 1e-6).max(f64::exp2(6.0 - f64::from(arithmetic.bits())));
-        let run = |tolerance: f64| model.run(&self.task(parameters, &self.probe_times, tolerance), arithmetic);
-        let (values, loose) = (run(tight)?.0, run(tight * 64.0)?.0);
-        let doubt = values.distance(&loose);
-        let what = format!("the model `{}` in {}, tolerance {tight:.0e}", model.about().name, arithmetic.name());
-        Ok(Yardstick { values, doubt, what })
     }
 
     /// Runs a model, an integrator with ever smaller tolerances, and measures it at the probe times.

@@ -22,7 +22,9 @@ mod flow;
 mod model;
 mod path;
 mod precise;
+pub mod speed;
 pub mod top;
+mod yardstick;
 
 pub use choice::{Outcome, Refusal, Request, choose};
 pub use error::SceneError;
