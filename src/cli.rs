@@ -16,6 +16,8 @@ use crate::explain;
 use crate::report::{self, Run, terminal};
 use crate::verify::{self, Request, Verified};
 
+mod stability;
+
 /// Exit code: everything is as expected.
 const AS_EXPECTED: u8 = 0;
 /// Exit code: some equation is not as expected.
@@ -64,6 +66,8 @@ enum Command {
         #[arg(long)]
         deep: bool,
     },
+    /// Search where the formulas of the notes lose their digits, and forms that do not.
+    Stability(stability::Arguments),
     /// Show how one equation is read and what it is at three states.
     Explain {
         /// The notes.
@@ -151,6 +155,9 @@ pub fn main() -> ExitCode {
             let printed = Printed { format, options: report::Options { times: !no_times } };
             in_pool(sampling.jobs, || verify_command(&request, &out, printed))
         }
+        Command::Stability(arguments) => {
+            in_pool(arguments.jobs, || stability::run(&arguments).map(|()| AS_EXPECTED))
+        }
         Command::Explain { path, label, sampling } => {
             in_pool(sampling.jobs, || explain_command(&path, &label, &sampling))
         }
@@ -230,9 +237,13 @@ fn print(run: &Run, printed: Printed, written: &report::Written) -> miette::Resu
         }
         Format::Json => report::json::render(run, printed.options)?,
     };
-    // A closed pipe is no failure.
-    let _ = std::io::stdout().write_all(text.as_bytes());
+    print_text(&text);
     Ok(())
+}
+
+/// Prints; a closed pipe is no failure.
+fn print_text(text: &str) {
+    let _ = std::io::stdout().write_all(text.as_bytes());
 }
 
 /// A progress bar, on a terminal only.

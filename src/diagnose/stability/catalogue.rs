@@ -285,7 +285,12 @@ impl<'c> Ready<'c> {
         let latex = to_latex(&self.computed.world, new)?;
         let other = self.other(&latex, &[new], state, seed, times, random).ok()?;
         let (old, new) = (&before.found, &other.form.found);
-        let better = new.mean < old.mean - 0.5 || new.fault.loss.fault() < old.fault.loss.fault() - 1.0;
+        let gained = [
+            before.at.lost - other.form.at.lost,
+            old.mean - new.mean,
+            old.fault.loss.fault() - new.fault.loss.fault(),
+        ];
+        let better = gained.iter().any(|g| *g > 1.0) && gained.iter().all(|g| *g > -1.0);
         (other.sameness.holds() && better).then_some(other)
     }
 }

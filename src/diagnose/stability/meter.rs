@@ -144,6 +144,9 @@ impl Meter {
     pub fn condition(&mut self, state: &[f64]) -> f64 {
         let inputs = at(state, &self.places);
         let exact: Vec<Df64> = inputs.iter().map(|x| Df64::from(*x)).collect();
+        if self.is_at_border(&inputs, &exact) {
+            return BITS;
+        }
         let values = self.tape.eval(&exact, &(), &mut self.fine);
         let size = values.iter().map(|x| x.to_f64().abs()).fold(0.0, f64::max);
         let mut sum = self.quick_slopes(&inputs);
@@ -152,6 +155,25 @@ impl Meter {
         }
         let condition = (sum / size).log2();
         if condition.is_nan() { BITS } else { condition.clamp(0.0, BITS) }
+    }
+
+    /// Whether the formula has no value in doubles, nor exactly where a variable moves by its last bit: no derivative tells how
+    /// much is lost at the border of where a formula is defined.
+    fn is_at_border(&mut self, inputs: &[f64], exact: &[Df64]) -> bool {
+        if self.tape.eval(inputs, &(), &mut self.quick).iter().all(|x| x.is_finite()) {
+            return false;
+        }
+        let mut moved = exact.to_vec();
+        for i in (0..exact.len()).filter(|i| !self.integer[*i]) {
+            for step in [f64::EPSILON, -f64::EPSILON] {
+                moved[i] = exact[i] * (1.0 + step);
+                if !self.tape.eval(&moved, &(), &mut self.fine).iter().all(Number::is_finite) {
+                    return true;
+                }
+            }
+            moved[i] = exact[i];
+        }
+        false
     }
 
     /// Σ |xᵢ ∂f/∂xᵢ| in doubles.
