@@ -16,6 +16,7 @@ use crate::explain;
 use crate::report::{self, Run, terminal};
 use crate::verify::{self, Request, Verified};
 
+mod speed;
 mod stability;
 
 /// Exit code: everything is as expected.
@@ -68,6 +69,8 @@ enum Command {
     },
     /// Search where the formulas of the notes lose their digits, and forms that do not.
     Stability(stability::Arguments),
+    /// Measure what accuracy costs in each scene, model by model.
+    Speed(speed::Arguments),
     /// Show how one equation is read and what it is at three states.
     Explain {
         /// The notes.
@@ -155,9 +158,8 @@ pub fn main() -> ExitCode {
             let printed = Printed { format, options: report::Options { times: !no_times } };
             in_pool(sampling.jobs, || verify_command(&request, &out, printed))
         }
-        Command::Stability(arguments) => {
-            in_pool(arguments.jobs, || stability::run(&arguments).map(|()| AS_EXPECTED))
-        }
+        Command::Stability(arguments) => in_pool(arguments.jobs, || stability::run(&arguments).map(|()| AS_EXPECTED)),
+        Command::Speed(arguments) => in_pool(None, || speed::run(&arguments).map(|()| AS_EXPECTED)),
         Command::Explain { path, label, sampling } => {
             in_pool(sampling.jobs, || explain_command(&path, &label, &sampling))
         }
