@@ -19,10 +19,13 @@ mod choice;
 mod conformance;
 mod error;
 mod flow;
+pub mod free;
+mod jacobi;
 mod model;
 mod path;
 mod precise;
 pub mod top;
+mod value;
 
 pub use choice::{Outcome, Refusal, Request, choose};
 pub use error::SceneError;
@@ -68,7 +71,7 @@ pub struct Quantity {
 }
 
 /// All scenes.
-pub static SCENES: &[&Scene] = &[&top::SCENE];
+pub static SCENES: &[&Scene] = &[&top::SCENE, &free::SCENE];
 
 /// The scene of this name.
 ///
