@@ -8,12 +8,15 @@ use std::time::{Duration, Instant};
 
 use clap::{Parser, Subcommand, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
+use rayon::prelude::*;
 
 use crate::check::Options;
 use crate::document::Problem;
 use crate::explain;
 use crate::report::{self, Run, terminal};
 use crate::verify::{self, Request, Verified};
+
+mod stability;
 
 /// Exit code: everything is as expected.
 const AS_EXPECTED: u8 = 0;
@@ -63,6 +66,8 @@ enum Command {
         #[arg(long)]
         deep: bool,
     },
+    /// Search where the formulas of the notes lose their digits, and forms that do not.
+    Stability(stability::Arguments),
     /// Show how one equation is read and what it is at three states.
     Explain {
         /// The notes.
@@ -150,6 +155,9 @@ pub fn main() -> ExitCode {
             let printed = Printed { format, options: report::Options { times: !no_times } };
             in_pool(sampling.jobs, || verify_command(&request, &out, printed))
         }
+        Command::Stability(arguments) => {
+            in_pool(arguments.jobs, || stability::run(&arguments).map(|()| AS_EXPECTED))
+        }
         Command::Explain { path, label, sampling } => {
             in_pool(sampling.jobs, || explain_command(&path, &label, &sampling))
         }
@@ -176,7 +184,7 @@ fn verify_command(request: &Request, out: &std::path::Path, printed: Printed) ->
     let total: usize = documents.iter().map(|d| d.equations().count()).sum();
     let bar = progress(total);
     let verified: Vec<Verified> =
-        documents.into_iter().map(|document| verify::verify(document, request, &|| bar.inc(1))).collect();
+        documents.into_par_iter().map(|document| verify::verify(document, request, &|| bar.inc(1))).collect();
     bar.finish_and_clear();
     check_labels(request, &verified)?;
     for v in &verified {
@@ -229,9 +237,13 @@ fn print(run: &Run, printed: Printed, written: &report::Written) -> miette::Resu
         }
         Format::Json => report::json::render(run, printed.options)?,
     };
-    // A closed pipe is no failure.
-    let _ = std::io::stdout().write_all(text.as_bytes());
+    print_text(&text);
     Ok(())
+}
+
+/// Prints; a closed pipe is no failure.
+fn print_text(text: &str) {
+    let _ = std::io::stdout().write_all(text.as_bytes());
 }
 
 /// A progress bar, on a terminal only.

@@ -301,7 +301,7 @@ impl<'b> Source<'b> {
     }
 
     /// The ranges that the equation's annotation sets.
-    fn ranges(&self, world: &mut World) -> Result<(), Obstacle> {
+    pub(super) fn ranges(&self, world: &mut World) -> Result<(), Obstacle> {
         let Some(annotation) = self.book.entries[self.index].annotation() else { return Ok(()) };
         for (name, range) in &annotation.range {
             for e in self.symbol(world, name)?.components() {

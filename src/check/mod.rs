@@ -6,6 +6,7 @@ mod certify;
 mod choice;
 mod circle;
 mod claim;
+pub mod computed;
 mod decide;
 pub mod dimension;
 mod elimination;

@@ -17,6 +17,7 @@ mod near;
 pub mod sensitivity;
 mod shape;
 mod sides;
+pub mod stability;
 mod tries;
 mod wider;
 

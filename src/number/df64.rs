@@ -225,7 +225,7 @@ impl Real for Df64 {
     fn reach() -> f64 {
         800.0
     }
-    fn elliptic_radius(f: Elliptic, x: &[&Self], errors: &[f64]) -> f64 {
-        elliptic::double_radius(f, x, errors)
+    fn elliptic_within(f: Elliptic, x: &[&Self], errors: &[f64]) -> (Self, f64) {
+        elliptic::double_within(f, x, errors)
     }
 }

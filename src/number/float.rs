@@ -167,7 +167,7 @@ impl Real for f64 {
     fn reach() -> f64 {
         1000.0
     }
-    fn elliptic_radius(f: Elliptic, x: &[&Self], errors: &[f64]) -> f64 {
-        elliptic::machine_radius(f, x, errors)
+    fn elliptic_within(f: Elliptic, x: &[&Self], errors: &[f64]) -> (Self, f64) {
+        elliptic::machine_within(f, x, errors)
     }
 }

@@ -213,10 +213,8 @@ pub trait Real: Number {
     /// The relative errors hold for operands whose |log₂| is at most this. Smaller ones have absolute errors below
     /// 2^(-950 - bits).
     fn reach() -> f64;
-    /// How far an elliptic function can move when its operands move within these errors, both in units of the roundoff
-    /// 2^-bits of the result; infinite where no bound is known. Its own rounding is [`elliptic::ROUNDING`].
-    fn elliptic_radius(f: Elliptic, x: &[&Self], errors: &[f64]) -> f64 {
-        let _ = (f, x, errors);
-        f64::INFINITY
-    }
+    /// An elliptic function of as many operands as it has, and how far it can move when they move within these errors,
+    /// both in units of the roundoff 2^-bits of the result; infinite where no bound is known. Its own rounding is
+    /// [`elliptic::ROUNDING`].
+    fn elliptic_within(f: Elliptic, x: &[&Self], errors: &[f64]) -> (Self, f64);
 }

@@ -190,7 +190,7 @@ impl Real for Mpfr {
     fn reach() -> f64 {
         f64::INFINITY
     }
-    fn elliptic_radius(f: Elliptic, x: &[&Self], errors: &[f64]) -> f64 {
-        elliptic::any_radius(f, x, errors)
+    fn elliptic_within(f: Elliptic, x: &[&Self], errors: &[f64]) -> (Self, f64) {
+        elliptic::any_within(f, x, errors)
     }
 }

@@ -5,10 +5,12 @@
 pub mod charts;
 mod counts;
 mod diff;
+mod dumbbells;
 pub mod html;
 pub mod json;
 mod math;
 mod mathml;
+pub mod stability;
 mod svg;
 pub mod terminal;
 mod text;
@@ -104,7 +106,7 @@ pub enum ReportError {
 /// [`ReportError`]
 pub fn write(run: &Run, out: &Path, options: Options) -> Result<Written, ReportError> {
     let (html, json) = (html::render(run, options)?, json::render(run, options)?);
-    write::pair(out, &html, &json)
+    write::pair(out, "report", &html, &json)
 }
 
 #[cfg(test)]

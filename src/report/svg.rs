@@ -31,8 +31,9 @@ pub(super) struct Axis {
 /// The canvas, in the units of the SVG's `viewBox`.
 const SIZE: (u32, u32) = (960, 600);
 const TEXT: i32 = 30;
-const INK: RGBColor = RGBColor(1, 1, 1);
-const GRID: RGBColor = RGBColor(2, 2, 2);
+/// The sentinels of text and axes, and of grids.
+pub(super) const INK: RGBColor = RGBColor(1, 1, 1);
+pub(super) const GRID: RGBColor = RGBColor(2, 2, 2);
 
 impl Axis {
     /// Where a value lies: its logarithm on a logarithmic axis.
@@ -121,12 +122,11 @@ pub(super) fn plot(title: &str, x: &Axis, y: &Axis, series: &[Series]) -> Result
         }
         area.present().map_err(ChartError::drawing)?;
     }
-    Ok(with_classes(&svg, title))
+    Ok(with_classes(&svg, title, SIZE))
 }
 
 /// Replaces the sentinels by classes: `ink`, `grid`, `line-1`, `dash-1`, `fill-1`, `ring-1`.
-fn with_classes(svg: &str, title: &str) -> String {
-    let (width, height) = SIZE;
+pub(super) fn with_classes(svg: &str, title: &str, (width, height): (u32, u32)) -> String {
     let head = format!(
         "<svg viewBox=\"0 0 {width} {height}\" role=\"img\" aria-label=\"{}\" xmlns=\"http://www.w3.org/2000/svg\">",
         super::text::escape(title)

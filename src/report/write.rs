@@ -14,11 +14,11 @@ use super::{ReportError, Written};
 /// After this time a file that was never renamed is no other run's work, but what a killed one left.
 const STALE: Duration = Duration::from_secs(3600);
 
-/// Writes the page and the data into a directory, which is created if need be.
-pub(super) fn pair(out: &Path, html: &str, json: &str) -> Result<Written, ReportError> {
+/// Writes the page and the data under a name into a directory, which is created if need be.
+pub(super) fn pair(out: &Path, name: &str, html: &str, json: &str) -> Result<Written, ReportError> {
     fs::create_dir_all(out).map_err(|source| ReportError::Directory { path: out.to_owned(), source })?;
-    remove_stale(out);
-    let written = Written { html: out.join("report.html"), json: out.join("report.json") };
+    remove_stale(out, name);
+    let written = Written { html: out.join(format!("{name}.html")), json: out.join(format!("{name}.json")) };
     let page = Beside::write(&written.html, html)?;
     let data = Beside::write(&written.json, json)?;
     page.take_place()?;
@@ -70,11 +70,11 @@ fn sync_directory(out: &Path) {
 }
 
 /// Removes what killed runs left. Where that fails, nothing is lost.
-fn remove_stale(out: &Path) {
+fn remove_stale(out: &Path, stem: &str) {
     for entry in fs::read_dir(out).into_iter().flatten().flatten() {
         let name = entry.file_name();
         let name = name.to_string_lossy();
-        let ours = name.starts_with("report.") && name.ends_with(".tmp");
+        let ours = name.starts_with(&format!("{stem}.")) && name.ends_with(".tmp");
         let modified = entry.metadata().and_then(|m| m.modified());
         let age = modified.ok().and_then(|at| at.elapsed().ok()).unwrap_or_default();
         if ours && age > STALE {

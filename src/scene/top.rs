@@ -5,8 +5,30 @@
 //! notes, solved for the angular accelerations; `Omega` is the spin `omega_zeta = phi' cos(theta) + psi'`, a constant of
 //! the motion by (41).
 
+mod approximate;
+mod equations;
+mod start;
+
+use super::Scene;
 use crate::integrator::System;
 use std::f64::consts::TAU;
+
+/// The scene `top`.
+pub static SCENE: Scene = Scene {
+    name: "top",
+    about: "the heavy symmetric top: a body with a fixed point on its axis of symmetry, in uniform gravity",
+    parameters: start::PARAMETERS,
+    quantities: start::QUANTITIES,
+    models: &[
+        &approximate::Slow,
+        &approximate::Fast,
+        &approximate::Nutation,
+        &equations::Reduced,
+        &equations::Axis,
+        &equations::Quaternion,
+        &equations::Euler,
+    ],
+};
 
 /// A heavy symmetric top.
 #[derive(Clone, Copy, Debug, PartialEq)]
