@@ -183,6 +183,9 @@ impl Number for Df64 {
     fn set_elliptic(&mut self, f: Elliptic, x: &[&Self]) {
         *self = elliptic::double(f, x);
     }
+    fn add_product(&mut self, a: &Self, b: &Self) {
+        *self += *a * *b;
+    }
     fn set_sin_cos(sin: &mut Self, cos: &mut Self, a: &Self) {
         (*sin, *cos) = sin_cos(*a);
     }
