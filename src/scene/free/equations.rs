@@ -6,7 +6,6 @@ use super::super::value::V;
 use super::super::{About, Cost, Kind, Model, Motion, Precise, SceneError, Task};
 use super::start::{ATTITUDE, Start};
 use crate::integrator::Adaptive;
-use nalgebra::DVector;
 
 /// Euler's equations, with `q' = q omega / 2` only where the attitude is asked for.
 pub struct Euler;
@@ -83,8 +82,8 @@ impl Model for Adaptive8 {
         }
         let start = Start::<f64>::read(task, &())?;
         let [a, b, c] = start.moments.each_ref().map(|x| x.0);
-        let system = |_: f64, y: &DVector<f64>, slope: &mut DVector<f64>| {
-            let &[x, y, z, q0, q1, q2, q3] = y.as_slice() else { return slope.fill(f64::NAN) };
+        let system = |_: &f64, y: &[f64], slope: &mut [f64]| {
+            let &[x, y, z, q0, q1, q2, q3] = y else { return slope.fill(f64::NAN) };
             let turned = [
                 -(q1 * x + q2 * y + q3 * z),
                 q0 * x + q2 * z - q3 * y,
@@ -95,11 +94,11 @@ impl Model for Adaptive8 {
             slope.copy_from_slice(&[&euler[..], &turned.map(|x| x / 2.0)].concat());
         };
         let [x, y, z] = start.omega.each_ref().map(|x| x.0);
-        let mut state = DVector::from_vec(vec![x, y, z, 1.0, 0.0, 0.0, 0.0]);
+        let mut state = vec![x, y, z, 1.0, 0.0, 0.0, 0.0];
         let driver = Adaptive { max_steps: 10_000_000, ..Adaptive::with_tolerance(task.tolerance.max(1e-15)) };
         let (mut motion, mut cost, mut now) = (Motion::begin(task), Cost { order: 8, ..Cost::default() }, 0.0);
         for &t in task.times {
-            let outcome = driver.integrate(&system, now, &state, t, |_| {})?;
+            let outcome = driver.integrate(&system, (&now, &state), &t, |_| {})?;
             cost.steps += outcome.accepted + outcome.refused;
             (state, now) = (outcome.y, t);
             let omega = [0, 1, 2].map(|i| V(state[i]));
