@@ -67,7 +67,7 @@ fn section(measured: &Measured, renderer: &Renderer) -> Section {
         about: scene.about,
         quantities: names.collect::<Vec<_>>().join(", "),
         parameters: values
-            .map(|(p, v)| Setting { name: p.name, value: number(*v, 6), unit: p.unit, about: p.about })
+            .map(|(p, v)| Setting { name: p.name, value: short(*v), unit: p.unit, about: p.about })
             .collect(),
         models: scene
             .models
@@ -78,6 +78,15 @@ fn section(measured: &Measured, renderer: &Renderer) -> Section {
         trouble: chart.as_ref().err().map(ToString::to_string),
         chart: chart.ok().map(|c| view_charts::view(&c, renderer)),
         picks: measured.picks.iter().map(row).collect(),
+    }
+}
+
+/// A number without the zeros at its end.
+fn short(value: f64) -> String {
+    let text = number(value, 6);
+    match text.contains('.') && !text.contains(['e', '⁰']) {
+        true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
+        false => text,
     }
 }
 
