@@ -285,11 +285,8 @@ impl<'c> Ready<'c> {
         let latex = to_latex(&self.computed.world, new)?;
         let other = self.other(&latex, &[new], state, seed, times, random).ok()?;
         let (old, new) = (&before.found, &other.form.found);
-        let gained = [
-            before.at.lost - other.form.at.lost,
-            old.mean - new.mean,
-            old.fault.loss.fault() - new.fault.loss.fault(),
-        ];
+        let gained =
+            [before.at.lost - other.form.at.lost, old.mean - new.mean, old.fault.loss.fault() - new.fault.loss.fault()];
         let better = gained.iter().any(|g| *g > 1.0) && gained.iter().all(|g| *g > -1.0);
         (other.sameness.holds() && better).then_some(other)
     }

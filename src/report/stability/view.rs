@@ -220,7 +220,8 @@ fn chart(cases: &[Measured]) -> Option<Chart> {
     };
     let numbers = |row: &Row| {
         let optional = |x: Option<f64>| x.map_or("–".to_owned(), |x| number(x, 3));
-        let mut cells = vec![row.name.clone(), bits(row.bits.0), row.bits.1.map_or("–".into(), bits), bits(row.condition)];
+        let mut cells =
+            vec![row.name.clone(), bits(row.bits.0), row.bits.1.map_or("–".into(), bits), bits(row.condition)];
         if let Some((before, after)) = row.nanoseconds {
             cells.extend([number(before, 3), optional(after)]);
         }
