@@ -1,5 +1,7 @@
 //! The command line: arguments, progress, exit codes.
 
+mod scene;
+
 use std::collections::HashSet;
 use std::io::{IsTerminal, Write};
 use std::path::PathBuf;
@@ -77,6 +79,8 @@ enum Command {
         #[command(flatten)]
         sampling: Sampling,
     },
+    /// Move a body: the values of a quantity by the cheapest model that meets an error, and why it is that one.
+    Scene(scene::Arguments),
 }
 
 /// How states are drawn and decided.
@@ -159,6 +163,7 @@ pub fn main() -> ExitCode {
         Command::Explain { path, label, sampling } => {
             in_pool(sampling.jobs, || explain_command(&path, &label, &sampling))
         }
+        Command::Scene(arguments) => scene::run(&arguments),
     };
     match outcome {
         Ok(code) => ExitCode::from(code),

@@ -20,6 +20,7 @@ fn motions(scene: &Scene) -> Vec<Case> {
     let mut cases = vec![case("default", &[], 20.0)];
     match scene.name {
         "top" => cases.extend(top_motions()),
+        "free" => cases.extend(free_motions()),
         _ => {}
     }
     cases
@@ -35,6 +36,29 @@ fn top_motions() -> [Case; 8] {
         case("pendulum with a little spin", &[("omega_zeta", 0.1), ("theta_0", 1.5)], 15.0),
         case("inverted, below the fixed point", &[("theta_0", 2.9), ("theta_rate", 0.5)], 15.0),
         case("flat moment of inertia", &[("I_0", 0.01), ("I_1", 0.012), ("mgl", 0.1), ("omega_zeta", 60.0)], 1.0),
+    ]
+}
+
+fn free_motions() -> [Case; 9] {
+    [
+        case("round the smallest moment", &[("omega_1", -1.0), ("omega_3", 0.2)], 20.0),
+        case("middle axis, one side", &[("omega_1", 0.1), ("omega_2", -1.0), ("omega_3", 0.1)], 20.0),
+        case("middle axis, other side", &[("omega_1", 0.1), ("omega_2", 1.0), ("omega_3", 0.04)], 20.0),
+        // With A, B, C = 1, 2, 3 the separatrix is omega_1^2 = 3 omega_3^2.
+        case(
+            "near the separatrix",
+            &[("A", 1.0), ("omega_1", 1.732_050_807_568), ("omega_2", 0.5), ("omega_3", 1.0)],
+            12.0,
+        ),
+        case(
+            "beyond the separatrix",
+            &[("A", 1.0), ("omega_1", 1.732_050_807_57), ("omega_2", 0.5), ("omega_3", -1.0)],
+            12.0,
+        ),
+        case("prolate, equal moments", &[("A", 2.0), ("C", 0.7)], 20.0),
+        case("nearly equal moments", &[("A", 1.999_999_999)], 20.0),
+        case("another order", &[("A", 3.0), ("B", 1.0), ("C", 2.0), ("omega_3", -0.6)], 20.0),
+        case("yet another order", &[("A", 2.0), ("B", 3.5), ("C", 1.0), ("omega_2", -0.9)], 20.0),
     ]
 }
 
@@ -147,5 +171,49 @@ fn bad_requests_are_errors() {
         unique.sort_unstable();
         unique.dedup();
         assert_eq!(unique.len(), names.len(), "two models of {} have one name", scene.name);
+    }
+}
+
+/// Small numbers that look random.
+struct Dice(u64);
+
+impl Dice {
+    fn next(&mut self) -> f64 {
+        self.0 = self.0.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1_442_695_040_888_963_407);
+        (self.0 >> 11) as f64 / (1u64 << 53) as f64
+    }
+
+    fn between(&mut self, a: f64, b: f64) -> f64 {
+        a + (b - a) * self.next()
+    }
+}
+
+/// The choice never gives an error larger than asked: at random motions, errors and quantities, against the fullest
+/// equations in double-double at all times, not only at those that were probed.
+#[test]
+fn the_choice_meets_the_error_asked_for() {
+    let mut dice = Dice(7);
+    for scene in SCENES {
+        let mut taken = std::collections::BTreeSet::new();
+        for _ in 0..24 {
+            let mut parameters = scene.defaults();
+            for (value, of) in parameters.iter_mut().zip(scene.parameters) {
+                let wide = dice.between(0.6, 1.4);
+                *value = if of.default == 0.0 { dice.between(-0.5, 0.5) } else { of.default * wide };
+            }
+            let quantity = (dice.next() * scene.quantities.len() as f64) as usize;
+            let error = 10f64.powf(dice.between(-14.0, 0.5));
+            let until = dice.between(0.5, 6.0);
+            let times: Vec<f64> = (0..150).map(|i| until * f64::from(i) / 149.0).collect();
+            let request =
+                Request { scene, parameters, quantities: vec![quantity], times, error, model: None, bits: None };
+            let outcome = choose(&request).unwrap_or_else(|why| panic!("{}: {why} in {request:?}", scene.name));
+            let truth = truth(scene, &request.parameters, quantity, &request.times).unwrap();
+            let distance = outcome.values.distance(&truth);
+            assert!(outcome.met && distance <= error, "{}: {distance:e} for {error:e}", outcome.model.name);
+            taken.insert((outcome.model.name, outcome.arithmetic.name()));
+        }
+        println!("{}: {taken:?}", scene.name);
+        assert!(taken.len() > 1, "{taken:?}");
     }
 }

@@ -19,11 +19,14 @@ mod choice;
 mod conformance;
 mod error;
 mod flow;
+pub mod free;
+mod jacobi;
 mod model;
 mod path;
 mod precise;
 pub mod speed;
 pub mod top;
+mod value;
 mod yardstick;
 
 pub use choice::{Outcome, Refusal, Request, choose};
@@ -70,7 +73,7 @@ pub struct Quantity {
 }
 
 /// All scenes.
-pub static SCENES: &[&Scene] = &[&top::SCENE];
+pub static SCENES: &[&Scene] = &[&top::SCENE, &free::SCENE];
 
 /// The scene of this name.
 ///

@@ -6,6 +6,7 @@
 //! the motion by (41).
 
 mod approximate;
+mod closed;
 mod equations;
 mod start;
 
@@ -23,6 +24,7 @@ pub static SCENE: Scene = Scene {
         &approximate::Slow,
         &approximate::Fast,
         &approximate::Nutation,
+        &closed::Closed,
         &equations::Reduced,
         &equations::Axis,
         &equations::Quaternion,

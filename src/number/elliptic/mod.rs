@@ -25,6 +25,7 @@
 //!   algorithm on [`Spread`]s. [`Dual`](super::Dual) and [`Jet`](super::Jet) are by [`slope`].
 
 mod arithmetic;
+pub mod bare;
 mod carlson;
 mod complete;
 mod guard;
