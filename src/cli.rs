@@ -18,6 +18,7 @@ use crate::explain;
 use crate::report::{self, Run, terminal};
 use crate::verify::{self, Request, Verified};
 
+mod speed;
 mod stability;
 
 /// Exit code: everything is as expected.
@@ -70,6 +71,8 @@ enum Command {
     },
     /// Search where the formulas of the notes lose their digits, and forms that do not.
     Stability(stability::Arguments),
+    /// Measure what accuracy costs in each scene, model by model.
+    Speed(speed::Arguments),
     /// Show how one equation is read and what it is at three states.
     Explain {
         /// The notes.
@@ -160,6 +163,7 @@ pub fn main() -> ExitCode {
             in_pool(sampling.jobs, || verify_command(&request, &out, printed))
         }
         Command::Stability(arguments) => in_pool(arguments.jobs, || stability::run(&arguments).map(|()| AS_EXPECTED)),
+        Command::Speed(arguments) => in_pool(None, || speed::run(&arguments).map(|()| AS_EXPECTED)),
         Command::Explain { path, label, sampling } => {
             in_pool(sampling.jobs, || explain_command(&path, &label, &sampling))
         }

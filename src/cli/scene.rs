@@ -204,7 +204,8 @@ fn names(request: &Request) -> Vec<(&'static str, &'static str)> {
 }
 
 fn table(request: &Request, outcome: &Outcome) -> String {
-    let head = std::iter::once("t [s]".to_owned()).chain(names(request).iter().map(|(n, u)| format!("{n} [{u}]")));
+    let named = names(request);
+    let head = std::iter::once("t [s]".to_owned()).chain(named.iter().map(|(n, u)| format!("{n} [{u}]")));
     let head: Vec<String> = head.collect();
     let rows = rows(request, outcome);
     let width =

@@ -60,6 +60,8 @@ pub struct Outcome {
     pub model: About,
     /// The number type it ran in.
     pub arithmetic: Arithmetic,
+    /// The tolerance that it was given, if it is an integrator; 0 otherwise.
+    pub tolerance: f64,
     /// Its largest error at the probe times, the doubt of the yardstick included.
     pub measured: f64,
     /// Whether that meets the error asked for; only a model that was asked for by name may miss it.
@@ -78,6 +80,7 @@ pub struct Outcome {
 
 /// A run that is measured.
 struct Attempt {
+    tolerance: f64,
     values: Values,
     cost: Cost,
     measured: f64,
@@ -239,7 +242,7 @@ impl<'a> Chooser<'a> {
             let probed = if integrated { values.at(&self.probes) } else { values.clone() };
             let measured = probed.distance(&yardstick.values) + yardstick.doubt;
             if best.as_ref().is_none_or(|b| measured < b.measured) {
-                best = Some(Attempt { values, cost, measured });
+                best = Some(Attempt { tolerance, values, cost, measured });
             }
             if measured * ROUNDING_MARGIN <= self.request.error || tolerance <= least {
                 break;
@@ -267,8 +270,8 @@ impl<'a> Chooser<'a> {
         attempt: Attempt,
         met: bool,
     ) -> Outcome {
-        let Attempt { values, cost, measured } = attempt;
+        let Attempt { tolerance, values, cost, measured } = attempt;
         let (probes, yardstick) = (self.probes.len(), yardstick.what.clone());
-        Outcome { model, arithmetic, measured, met, probes, yardstick, refused: Vec::new(), values, cost }
+        Outcome { model, arithmetic, tolerance, measured, met, probes, yardstick, refused: Vec::new(), values, cost }
     }
 }

@@ -1,5 +1,6 @@
 //! What accuracy costs: the models of a scene at every tolerance, the time of each run against its error.
 
+use super::choice::{Request, choose};
 use super::model::{About, Cost, Kind, Task};
 use super::precise::Arithmetic;
 use super::yardstick::Yardstick;
@@ -57,7 +58,50 @@ fn arithmetic(tolerance: f64) -> Option<Arithmetic> {
     }
 }
 
+/// What a scene takes by itself for an error.
+#[derive(Clone, Debug)]
+pub struct Pick {
+    /// The error that was asked for.
+    pub asked: f64,
+    /// What was taken; why nothing, where nothing meets the error.
+    pub taken: Result<Taken, String>,
+    /// The time of choosing and computing in s.
+    pub seconds: f64,
+}
+
+/// A model that was taken.
+#[derive(Clone, Debug)]
+pub struct Taken {
+    /// The model.
+    pub model: About,
+    /// The number type.
+    pub arithmetic: Arithmetic,
+    /// Its measured error.
+    pub error: f64,
+    /// The time of a run in s, without the choice.
+    pub seconds: f64,
+}
+
 impl Sweep {
+    /// What the scene takes for these errors.
+    pub fn picks(&self, errors: &[f64]) -> Vec<Pick> {
+        errors.iter().map(|&asked| self.pick(asked)).collect()
+    }
+
+    fn pick(&self, asked: f64) -> Pick {
+        let Sweep { scene, parameters, quantities, times, .. } = self.clone();
+        let request = Request { scene, parameters, quantities, times, error: asked, model: None, bits: None };
+        let begin = Instant::now();
+        let outcome = choose(&request);
+        let seconds = begin.elapsed().as_secs_f64();
+        let taken = outcome.and_then(|o| {
+            let model = self.scene.model(o.model.name)?;
+            let (_, seconds) = timed(|| model.run(&self.task(o.tolerance), o.arithmetic))?;
+            Ok(Taken { model: o.model, arithmetic: o.arithmetic, error: o.measured, seconds })
+        });
+        Pick { asked, taken: taken.map_err(|e| e.to_string()), seconds }
+    }
+
     /// Runs every model that gives the quantities: an integrator once for each tolerance, the others once for each
     /// number type. Models that do not apply to the motion are left out.
     ///
@@ -110,16 +154,16 @@ fn roundoff(arithmetic: Arithmetic) -> f64 {
 /// The result, and the shortest time in which it was computed.
 fn timed<T>(mut work: impl FnMut() -> Result<T, SceneError>) -> Result<(T, f64), SceneError> {
     let begin = Instant::now();
-    let mut shortest = f64::INFINITY;
-    for run in 1.. {
+    let (mut shortest, mut runs) = (f64::INFINITY, 0);
+    loop {
         let start = Instant::now();
         let result = work()?;
         shortest = shortest.min(start.elapsed().as_secs_f64());
-        if run >= MOST_RUNS || begin.elapsed() >= TIMED_FOR {
+        runs += 1;
+        if runs >= MOST_RUNS || begin.elapsed() >= TIMED_FOR {
             return Ok((result, shortest));
         }
     }
-    Err(SceneError::Times)
 }
 
 /// The runs that no other one beats in both error and time, from rough to exact.

@@ -4,6 +4,9 @@ use super::SceneError;
 use super::model::{AnyModel, Kind, Task};
 use super::precise::{Arithmetic, Values};
 
+/// The share of a task's tolerance that integrated equations may be off.
+const DOUBT: f64 = 1.0 / 64.0;
+
 /// Values that are better than those that they are compared with.
 pub(super) struct Yardstick {
     /// The values.
@@ -77,12 +80,21 @@ fn closed(task: &Task, model: &dyn AnyModel, arithmetic: Arithmetic) -> Result<Y
     Ok(Yardstick { values, doubt, what })
 }
 
-/// Integrated equations, with how far they move for a looser tolerance.
+/// Integrated equations, with how far they move for a looser tolerance; ever tighter ones, until that is far below the
+/// task's.
 fn integrated(task: &Task, model: &dyn AnyModel, arithmetic: Arithmetic) -> Result<Yardstick, SceneError> {
-    let tight = (task.tolerance * 1e-6).max(f64::exp2(6.0 - f64::from(arithmetic.bits())));
+    let least = f64::exp2(6.0 - f64::from(arithmetic.bits()));
     let run = |tolerance: f64| model.run(&Task { tolerance, ..*task }, arithmetic);
-    let (values, loose) = (run(tight)?.0, run(tight * 64.0)?.0);
-    let doubt = values.distance(&loose);
-    let what = format!("the model `{}` in {}, tolerance {tight:.0e}", model.about().name, arithmetic.name());
-    Ok(Yardstick { values, doubt, what })
+    let mut tight = (task.tolerance * 1e-6).max(least);
+    let mut loose = run(tight * 64.0)?.0;
+    loop {
+        let values = run(tight)?.0;
+        let doubt = values.distance(&loose);
+        if doubt <= task.tolerance * DOUBT || tight <= least {
+            let what = format!("the model `{}` in {}, tolerance {tight:.0e}", model.about().name, arithmetic.name());
+            return Ok(Yardstick { values, doubt, what });
+        }
+        loose = values;
+        tight = (tight * 1e-4).max(least);
+    }
 }
