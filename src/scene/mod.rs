@@ -21,6 +21,7 @@ mod error;
 mod flow;
 pub mod free;
 mod jacobi;
+pub mod mercury;
 mod model;
 mod path;
 mod precise;
@@ -73,7 +74,7 @@ pub struct Quantity {
 }
 
 /// All scenes.
-pub static SCENES: &[&Scene] = &[&top::SCENE, &free::SCENE];
+pub static SCENES: &[&Scene] = &[&top::SCENE, &free::SCENE, &mercury::SCENE];
 
 /// The scene of this name.
 ///
