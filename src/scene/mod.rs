@@ -17,6 +17,7 @@
 mod choice;
 #[cfg(test)]
 mod conformance;
+pub mod drift;
 mod error;
 mod flow;
 pub mod free;
