@@ -154,9 +154,7 @@ pub fn main() -> ExitCode {
             let printed = Printed { format, options: report::Options { times: !no_times } };
             in_pool(sampling.jobs, || verify_command(&request, &out, printed))
         }
-        Command::Stability(arguments) => {
-            in_pool(arguments.jobs, || stability::run(&arguments).map(|()| AS_EXPECTED))
-        }
+        Command::Stability(arguments) => in_pool(arguments.jobs, || stability::run(&arguments).map(|()| AS_EXPECTED)),
         Command::Explain { path, label, sampling } => {
             in_pool(sampling.jobs, || explain_command(&path, &label, &sampling))
         }

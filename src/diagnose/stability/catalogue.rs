@@ -6,8 +6,9 @@ use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use crate::check::computed::{Computed, Variable, computed, computed_from, expressions};
-use crate::check::{Book, Random};
+use crate::check::computed::{Computed, Variable, components, computed, computed_from, expressions};
+use crate::check::{Book, Formula, Random};
+use crate::diagnose::mutants::{Reach, mutants};
 use crate::expr::{Deadline, Expr, Graph, Node, Tape};
 
 use super::meter::{Loss, Meter};
@@ -67,7 +68,9 @@ struct Cases {
 pub enum CaseError {
     /// The data is no TOML, or has other keys.
     #[error("the catalogue cannot be read: {0}")]
-    #[diagnostic(help("each [[case]] has name, notes, equation, formula, state, why, and what else the documentation of `Case` says"))]
+    #[diagnostic(help(
+        "each [[case]] has name, notes, equation, formula, state, why, and what else the documentation of `Case` says"
+    ))]
     Toml(String),
     /// Its equation does not exist.
     #[error("the case `{0}` names the equation ({1}), which does not exist")]
@@ -168,10 +171,10 @@ impl<'c> Ready<'c> {
     pub fn new(case: &'c Case, book: &Book, seed: u64) -> Result<Self, CaseError> {
         let index = book.find(&case.equation).map(|(index, _)| index);
         let index = index.ok_or_else(|| CaseError::Equation(case.name.clone(), case.equation.clone()))?;
-        let unclear = |latex: &str, e: crate::semantics::Error| {
-            CaseError::Latex(case.name.clone(), latex.to_owned(), e.message)
-        };
-        let mut of_case = computed_from(book, index, &case.formula, Deadline::NEVER).map_err(|e| unclear(&case.formula, e))?;
+        let unclear =
+            |latex: &str, e: crate::semantics::Error| CaseError::Latex(case.name.clone(), latex.to_owned(), e.message);
+        let mut of_case =
+            computed_from(book, index, &case.formula, Deadline::NEVER).map_err(|e| unclear(&case.formula, e))?;
         let world = &mut of_case.world;
         let mut parsed = |latex: &str| expressions(world, book, index, latex).map_err(|e| unclear(latex, e));
         let stable = case.stable.as_deref().map(&mut parsed).transpose()?;
@@ -223,9 +226,32 @@ impl<'c> Ready<'c> {
         })
     }
 
+    /// The mutants of the stable form that make sense, and the LaTeX of those that are not told from the formula.
+    pub fn mutants(&mut self, book: &Book, seed: u64) -> (usize, Vec<String>) {
+        let Some(tree) = self.case.stable.as_deref().and_then(|s| Formula::new(s).tree.ok()) else {
+            return (0, Vec::new());
+        };
+        let Some((index, _)) = book.find(&self.case.equation) else { return (0, Vec::new()) };
+        let (mut total, mut survivors) = (0, Vec::new());
+        for mutant in mutants(&tree, &book.entries[index].scope, Reach::MUTANTS) {
+            let Ok(outputs) = components(&mut self.computed.world, book, index, &mutant.tree) else { continue };
+            let all: Vec<Expr> = self.computed.outputs.iter().chain(&outputs).copied().collect();
+            let variables = self.computed.variables(&all);
+            let latex = crate::latex::to_latex(&mutant.tree);
+            let random = &mut Random::new(seed, &latex);
+            let graph = &mut self.computed.world.graph;
+            total += 1;
+            if same(graph, &self.computed.outputs, &outputs, &variables, random) != Sameness::Different {
+                survivors.push(latex);
+            }
+        }
+        (total, survivors)
+    }
+
     /// The values of the case's hard state; of symbols that it leaves out, the middle of their ranges.
     fn hard_state(&self) -> Vec<f64> {
-        let named = |v: &Variable| self.case.state.iter().find(|(name, _)| plain(name) == plain(&v.tex)).map(|(_, x)| *x);
+        let named =
+            |v: &Variable| self.case.state.iter().find(|(name, _)| plain(name) == plain(&v.tex)).map(|(_, x)| *x);
         self.variables.iter().map(|v| named(v).unwrap_or((v.range[0] + v.range[1]) / 2.0)).collect()
     }
 
@@ -260,7 +286,14 @@ impl<'c> Ready<'c> {
     }
 
     /// The form that rewriting finds for the hardest states, where it is the same formula and loses less.
-    fn rewritten(&mut self, before: &Form, state: &[f64], seed: u64, times: bool, random: &mut Random) -> Option<Other> {
+    fn rewritten(
+        &mut self,
+        before: &Form,
+        state: &[f64],
+        seed: u64,
+        times: bool,
+        random: &mut Random,
+    ) -> Option<Other> {
         let [output] = self.computed.outputs[..] else { return None };
         let space = super::space::Space::new(&self.computed.world.graph, &[output], &self.variables);
         let mut states = vec![state.to_vec(), before.found.worst.state.clone(), before.found.fault.state.clone()];
@@ -275,11 +308,8 @@ impl<'c> Ready<'c> {
         let latex = to_latex(&self.computed.world, new)?;
         let other = self.other(&latex, &[new], state, seed, times, random).ok()?;
         let (old, new) = (&before.found, &other.form.found);
-        let gained = [
-            before.at.lost - other.form.at.lost,
-            old.mean - new.mean,
-            old.fault.loss.fault() - new.fault.loss.fault(),
-        ];
+        let gained =
+            [before.at.lost - other.form.at.lost, old.mean - new.mean, old.fault.loss.fault() - new.fault.loss.fault()];
         let better = gained.iter().any(|g| *g > 1.0) && gained.iter().all(|g| *g > -1.0);
         (other.sameness.holds() && better).then_some(other)
     }
@@ -295,7 +325,14 @@ fn is_side(book: &Book, index: usize, formula: &Computed, variables: &[Variable]
 }
 
 /// Whether a side has the formula's values: its LaTeX is read into the side's graph.
-fn is_same(side: &mut Computed, formula: &Computed, book: &Book, index: usize, variables: &[Variable], seed: u64) -> bool {
+fn is_same(
+    side: &mut Computed,
+    formula: &Computed,
+    book: &Book,
+    index: usize,
+    variables: &[Variable],
+    seed: u64,
+) -> bool {
     let Ok(outputs) = expressions(&mut side.world, book, index, &formula.latex) else { return false };
     let all: Vec<Expr> = outputs.iter().chain(&side.outputs).copied().collect();
     let range = |v: &mut Variable| {
@@ -313,30 +350,4 @@ fn is_same(side: &mut Computed, formula: &Computed, book: &Book, index: usize, v
 /// A name without the braces and blanks that LaTeX may have or not.
 fn plain(name: &str) -> String {
     name.chars().filter(|c| !matches!(c, '{' | '}' | ' ')).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn tmp_print() {
-        for case in bundled().unwrap() {
-            let path = format!("{}/notes/{}.md", env!("CARGO_MANIFEST_DIR"), case.notes);
-            let text = std::fs::read_to_string(&path).unwrap();
-            let book = Book::new(&crate::document::parse(std::path::Path::new(&path), &text));
-            let ready = match Ready::new(&case, &book, 1) { Ok(r) => r, Err(e) => { println!("{e}"); continue; } };
-            let printed = ready.printed == case.printed;
-            let begin = std::time::Instant::now();
-            match ready.measured(1, true) {
-                Err(e) => println!("{e}"),
-                Ok(m) => {
-                    let f = |f: &Form| format!("mean {:.1} worst {:.1} (κ {:.1}) fault {:.1} at {:.1} κ {:.1} {:.0} ns", f.found.mean, f.found.worst.loss.lost, f.found.worst.loss.condition, f.found.fault.loss.fault(), f.at.lost, f.at.condition, f.nanoseconds.unwrap());
-                    println!("{}{} {:?}\n   {}", m.name, if printed {""} else {" PRINTED?"}, begin.elapsed(), f(&m.before));
-                    if let Some(a) = &m.after { println!("   {} {:?}", f(&a.form), a.sameness); }
-                    if let Some(a) = &m.rewritten { println!("   R {} {:?} {}", f(&a.form), a.sameness, a.form.latex); }
-                }
-            }
-        }
-    }
 }

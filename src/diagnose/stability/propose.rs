@@ -78,8 +78,12 @@ mod tests {
         let (x, y) = (graph.symbol("x"), graph.symbol("y"));
         let (ex, ey) = (graph.sym(x), graph.sym(y));
         let e = build(&mut graph, ex, ey);
-        let variables = [(x, "x", [0.0, 1.0]), (y, "y", [1.0, 2.0])]
-            .map(|(symbol, tex, range)| Variable { symbol, tex: tex.into(), range, integer: false });
+        let variables = [(x, "x", [0.0, 1.0]), (y, "y", [1.0, 2.0])].map(|(symbol, tex, range)| Variable {
+            symbol,
+            tex: tex.into(),
+            range,
+            integer: false,
+        });
         let effort = searching::Effort { random: 32, steps: 300 };
         let run = |graph: &Graph, e: Expr| {
             searching::search(graph, &[e], &[], &variables, effort, &mut Random::new(1, "test")).unwrap()

@@ -43,7 +43,9 @@ fn written(world: &World, e: Expr, depth: usize) -> Option<(String, Binding)> {
         Node::E => ("e".into(), Binding::Atom),
         Node::Symbol(s) => (world.tex(s), Binding::Atom),
         Node::Neg(a) => (format!("-{}", at_least(a, Binding::Product)?), Binding::Sum),
-        Node::Add(a, b) => sum(of(a)?.0, at_least(b, Binding::Product)?, matches!(graph.node(b), Node::Neg(_)), &of(b)?.0),
+        Node::Add(a, b) => {
+            sum(of(a)?.0, at_least(b, Binding::Product)?, matches!(graph.node(b), Node::Neg(_)), &of(b)?.0)
+        }
         Node::Sub(a, b) => (format!("{} - {}", of(a)?.0, at_least(b, Binding::Product)?), Binding::Sum),
         Node::Mul(a, b) => {
             // Numbers first, and never two numbers side by side.

@@ -150,8 +150,9 @@ fn formula(item: &Item, hard: &Hard, renderer: &Renderer) -> Formula {
         proposal_html: proposal.and_then(|p| p.latex.as_deref()).map(shown),
         proposal: proposal.map(|p| {
             let found = &p.found;
-            let (mean, fault) = (bits(found.mean), bits(found.fault.loss.fault()));
-            format!("mean {mean}, beyond the condition {fault} at worst; the same {}", sameness(p.sameness))
+            let (mean, worst) = (bits(found.mean), bits(found.worst.loss.lost));
+            let fault = bits(found.fault.loss.fault());
+            format!("mean {mean}, worst {worst}, beyond the condition {fault}; the same {}", sameness(p.sameness))
         }),
     }
 }
@@ -220,7 +221,8 @@ fn chart(cases: &[Measured]) -> Option<Chart> {
     };
     let numbers = |row: &Row| {
         let optional = |x: Option<f64>| x.map_or("–".to_owned(), |x| number(x, 3));
-        let mut cells = vec![row.name.clone(), bits(row.bits.0), row.bits.1.map_or("–".into(), bits), bits(row.condition)];
+        let mut cells =
+            vec![row.name.clone(), bits(row.bits.0), row.bits.1.map_or("–".into(), bits), bits(row.condition)];
         if let Some((before, after)) = row.nanoseconds {
             cells.extend([number(before, 3), optional(after)]);
         }
