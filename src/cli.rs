@@ -1,5 +1,7 @@
 //! The command line: arguments, progress, exit codes.
 
+mod scene;
+
 use std::collections::HashSet;
 use std::io::{IsTerminal, Write};
 use std::path::PathBuf;
@@ -8,6 +10,7 @@ use std::time::{Duration, Instant};
 
 use clap::{Parser, Subcommand, ValueEnum};
 use indicatif::{ProgressBar, ProgressStyle};
+use rayon::prelude::*;
 
 use crate::check::Options;
 use crate::document::Problem;
@@ -15,6 +18,7 @@ use crate::explain;
 use crate::report::{self, Run, terminal};
 use crate::verify::{self, Request, Verified};
 
+mod speed;
 mod stability;
 
 /// Exit code: everything is as expected.
@@ -67,6 +71,8 @@ enum Command {
     },
     /// Search where the formulas of the notes lose their digits, and forms that do not.
     Stability(stability::Arguments),
+    /// Measure what accuracy costs in each scene, model by model.
+    Speed(speed::Arguments),
     /// Show how one equation is read and what it is at three states.
     Explain {
         /// The notes.
@@ -76,6 +82,8 @@ enum Command {
         #[command(flatten)]
         sampling: Sampling,
     },
+    /// Move a body: the values of a quantity by the cheapest model that meets an error, and why it is that one.
+    Scene(scene::Arguments),
 }
 
 /// How states are drawn and decided.
@@ -155,9 +163,11 @@ pub fn main() -> ExitCode {
             in_pool(sampling.jobs, || verify_command(&request, &out, printed))
         }
         Command::Stability(arguments) => in_pool(arguments.jobs, || stability::run(&arguments).map(|()| AS_EXPECTED)),
+        Command::Speed(arguments) => in_pool(None, || speed::run(&arguments).map(|()| AS_EXPECTED)),
         Command::Explain { path, label, sampling } => {
             in_pool(sampling.jobs, || explain_command(&path, &label, &sampling))
         }
+        Command::Scene(arguments) => scene::run(&arguments),
     };
     match outcome {
         Ok(code) => ExitCode::from(code),
@@ -181,7 +191,7 @@ fn verify_command(request: &Request, out: &std::path::Path, printed: Printed) ->
     let total: usize = documents.iter().map(|d| d.equations().count()).sum();
     let bar = progress(total);
     let verified: Vec<Verified> =
-        documents.into_iter().map(|document| verify::verify(document, request, &|| bar.inc(1))).collect();
+        documents.into_par_iter().map(|document| verify::verify(document, request, &|| bar.inc(1))).collect();
     bar.finish_and_clear();
     check_labels(request, &verified)?;
     for v in &verified {

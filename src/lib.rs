@@ -9,7 +9,7 @@
 //! | floor | modules |
 //! |---|---|
 //! | 6 | `cli` |
-//! | 5 | `verify`, `explain`, `stability` |
+//! | 5 | `verify`, `explain`, `speed`, `stability` |
 //! | 4 | `report`, `diagnose` |
 //! | 3 | `semantics`, `check`, `scene` |
 //! | 2 | `expr`, `integrator` |
@@ -28,6 +28,7 @@ pub mod number;
 pub mod report;
 pub mod scene;
 pub mod semantics;
+pub mod speed;
 pub mod stability;
 #[cfg(test)]
 mod testing;

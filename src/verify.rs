@@ -64,21 +64,21 @@ pub fn documents(paths: &[PathBuf]) -> Result<Vec<Document>, ReadError> {
 /// Judges a document's equations, each on its own: one that panics costs no other. `judged` is called after each.
 pub fn verify(document: Document, request: &Request, judged: &(dyn Fn() + Sync)) -> Verified {
     let book = Book::new(&document);
-    let survey = caught(|| Survey::new(&book)).ok();
     let wanted: Vec<usize> = (0..book.entries.len())
         .filter(|k| request.only.is_empty() || request.only.contains(&book.entries[*k].equation.label))
         .collect();
     let judge = |index: &usize| {
         let outcome = caught(|| judged_and_diagnosed(&book, *index, request));
-        let mut judgement = outcome.unwrap_or_else(|panic| broken(&book, *index, &panic));
-        if let Some(survey) = &survey {
-            // Dimensions decide no verdict: without them the judgement stands.
-            let _ = caught(|| survey.report(*index, &mut judgement));
-        }
         judged();
-        judgement
+        outcome.unwrap_or_else(|panic| broken(&book, *index, &panic))
     };
-    let equations = wanted.par_iter().map(judge).collect();
+    let (survey, mut equations): (_, Vec<Judgement>) =
+        rayon::join(|| caught(|| Survey::new(&book)).ok(), || wanted.par_iter().map(judge).collect());
+    if let Some(survey) = &survey {
+        // Dimensions decide no verdict: without them the judgement stands.
+        let report = |(index, judgement): (&usize, &mut Judgement)| drop(caught(|| survey.report(*index, judgement)));
+        wanted.par_iter().zip(&mut equations).for_each(report);
+    }
     let problems: Vec<document::Problem> = document.problems.iter().chain(&book.problems).cloned().collect();
     let report = DocumentReport {
         name: document.name.clone(),

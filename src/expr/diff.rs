@@ -4,7 +4,6 @@
 
 use super::graph::{Expr, Graph, Node, SymId};
 use crate::number::Func;
-use rustc_hash::FxHashMap as HashMap;
 
 impl Graph {
     /// The partial derivative with respect to a symbol; all other symbols are held fixed.
@@ -49,25 +48,27 @@ impl Graph {
         if self.cut_short().is_some() {
             return vec![zero; es.len()];
         }
-        let mut d: HashMap<Expr, Expr> = HashMap::default();
-        for e in self.reachable(es) {
+        let parts = self.parts(es);
+        let mut d: Vec<Expr> = Vec::with_capacity(parts.order().len());
+        let of = |d: &[Expr], a: Expr| parts.position(a).and_then(|i| d.get(i).copied()).unwrap_or(zero);
+        for &e in parts.order() {
             let node = *self.node(e);
             let derivative = match node {
                 Node::Symbol(s) => rate(self, s),
-                _ if node.operands().all(|a| d.get(&a) == Some(&zero)) => zero,
+                _ if node.operands().all(|a| of(&d, a) == zero) => zero,
                 Node::Elliptic(f, x) => {
-                    let rates = x.map(|a| d.get(&a).copied().unwrap_or(zero));
+                    let rates = x.map(|a| of(&d, a));
                     self.elliptic_rate(f, &x, &rates)
                 }
                 _ => {
-                    let mut of = node.operands().map(|a| d.get(&a).copied().unwrap_or(zero));
-                    let (da, db) = (of.next().unwrap_or(zero), of.next().unwrap_or(zero));
+                    let mut rates = node.operands().map(|a| of(&d, a));
+                    let (da, db) = (rates.next().unwrap_or(zero), rates.next().unwrap_or(zero));
                     self.chain_rule(e, node, da, db)
                 }
             };
-            d.insert(e, derivative);
+            d.push(derivative);
         }
-        es.iter().map(|e| d.get(e).copied().unwrap_or(zero)).collect()
+        es.iter().map(|e| of(&d, *e)).collect()
     }
 
     /// The derivative of `e`, whose operands have the derivatives `da` and `db`, not both zero.

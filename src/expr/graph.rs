@@ -12,8 +12,8 @@
 use super::deadline::{Cut, Deadline};
 use super::ratio::{self, Ratio};
 use crate::number::{Elliptic, Func};
-use rustc_hash::FxHashMap as HashMap;
-use std::collections::hash_map::Entry;
+use indexmap::IndexSet;
+use rustc_hash::{FxBuildHasher, FxHashMap as HashMap};
 
 /// The most nodes of a graph: some 200 MB, a hundred times what notes need.
 pub const MOST_NODES: usize = 1 << 20;
@@ -113,8 +113,7 @@ impl Node {
 /// The arena of expressions and symbols.
 #[derive(Clone, Debug, Default)]
 pub struct Graph {
-    nodes: Vec<Node>,
-    interned: HashMap<Node, Expr>,
+    nodes: IndexSet<Node, FxBuildHasher>,
     symbols: Vec<SymbolInfo>,
     names: HashMap<String, SymId>,
     derivatives: HashMap<(SymId, u32), SymId>,
@@ -237,21 +236,17 @@ fn derivative_name(name: &str, order: u32) -> String {
 /// Constructors.
 impl Graph {
     pub(super) fn intern(&mut self, node: Node) -> Expr {
-        match self.interned.entry(node) {
-            Entry::Occupied(known) => *known.get(),
-            // Any expression will do: it is not to be used.
-            Entry::Vacant(_) if self.cut.is_some() => Expr(0),
-            Entry::Vacant(new) => {
-                let e = *new.insert(Expr(self.nodes.len() as u32));
-                self.nodes.push(node);
-                if self.nodes.len() >= self.room.unwrap_or(MOST_NODES) {
-                    self.cut = Some(Cut::Size);
-                } else if self.nodes.len().is_multiple_of(NODES_BETWEEN_LOOKS) {
-                    self.cut_short();
-                }
-                e
-            }
+        if self.cut.is_some() {
+            // Any expression will do for what is new: it is not to be used.
+            return Expr(self.nodes.get_index_of(&node).unwrap_or(0) as u32);
         }
+        let (index, is_new) = self.nodes.insert_full(node);
+        if is_new && self.nodes.len() >= self.room.unwrap_or(MOST_NODES) {
+            self.cut = Some(Cut::Size);
+        } else if is_new && self.nodes.len().is_multiple_of(NODES_BETWEEN_LOOKS) {
+            self.cut_short();
+        }
+        Expr(index as u32)
     }
 
     fn exact(&mut self, r: Option<Ratio>) -> Option<Expr> {

@@ -1,7 +1,5 @@
 //! How large the terms are that an expression is made of.
 
-use std::collections::BTreeMap;
-
 use super::graph::{Expr, Graph, Node};
 use crate::number::Func;
 
@@ -12,10 +10,10 @@ impl Graph {
         if self.cut_short().is_some() {
             return e;
         }
-        let mut sizes: BTreeMap<Expr, Expr> = BTreeMap::new();
-        // Operands stand before what they are used in.
-        for x in self.reachable(&[e]) {
-            let of = |y: Expr| sizes.get(&y).copied().unwrap_or(y);
+        let parts = self.parts(&[e]);
+        let mut sizes: Vec<Expr> = Vec::with_capacity(parts.order().len());
+        for &x in parts.order() {
+            let of = |y: Expr| parts.position(y).map_or(y, |i| sizes[i]);
             let size = match *self.node(x) {
                 Node::Add(a, b) | Node::Sub(a, b) => self.add(of(a), of(b)),
                 Node::Mul(a, b) => self.mul(of(a), of(b)),
@@ -26,8 +24,8 @@ impl Graph {
                 Node::Neg(a) => of(a),
                 _ => self.call(Func::Abs, x),
             };
-            sizes.insert(x, size);
+            sizes.push(size);
         }
-        sizes.get(&e).copied().unwrap_or(e)
+        sizes.last().copied().unwrap_or(e)
     }
 }

@@ -7,6 +7,7 @@ mod elliptic;
 pub mod field;
 pub mod graph;
 mod magnitude;
+mod parts;
 pub(crate) mod ratio;
 mod rewrite;
 pub mod tape;
@@ -14,6 +15,7 @@ pub mod tape;
 pub use crate::number::{Elliptic, Func};
 pub use deadline::{Cut, Deadline};
 pub use graph::{Expr, Graph, MOST_NODES, Node, SymId, SymbolInfo};
+pub use parts::Parts;
 pub use tape::{Tape, Workspace};
 
 #[cfg(test)]

@@ -1,32 +1,8 @@
-//! What expressions are made of, and expressions made anew with other parts.
+//! Expressions made anew with other parts.
 
 use super::graph::{Expr, Graph, Node, SymId};
-use rustc_hash::{FxHashMap as HashMap, FxHashSet as HashSet};
-use std::collections::BTreeSet;
 
 impl Graph {
-    /// Everything the expressions are made of, themselves included, operands first.
-    pub fn reachable(&self, es: &[Expr]) -> Vec<Expr> {
-        let mut seen: HashSet<Expr> = es.iter().copied().collect();
-        let mut order: Vec<Expr> = seen.iter().copied().collect();
-        let mut next = 0;
-        while let Some(&e) = order.get(next) {
-            next += 1;
-            order.extend(self.node(e).operands().filter(|&a| seen.insert(a)));
-        }
-        order.sort_unstable();
-        order
-    }
-
-    /// The symbols that occur in the expressions.
-    pub fn symbols(&self, es: &[Expr]) -> BTreeSet<SymId> {
-        let symbol = |e: Expr| match *self.node(e) {
-            Node::Symbol(s) => Some(s),
-            _ => None,
-        };
-        self.reachable(es).into_iter().filter_map(symbol).collect()
-    }
-
     /// The expression with symbols replaced, all at once: what is put in is not itself replaced.
     pub fn substitute<S: std::hash::BuildHasher>(
         &mut self,
@@ -36,20 +12,20 @@ impl Graph {
         if self.cut_short().is_some() {
             return e;
         }
-        let mut new: HashMap<Expr, Expr> = HashMap::default();
-        for old in self.reachable(&[e]) {
+        let parts = self.parts(&[e]);
+        let mut new: Vec<Expr> = Vec::with_capacity(parts.order().len());
+        for &old in parts.order() {
             let replaced = match *self.node(old) {
                 Node::Symbol(s) => map.get(&s).copied().unwrap_or(old),
-                node => self.rebuild(old, node, &new),
+                node => self.rebuild(old, node, |a| parts.position(a).map_or(a, |i| new[i])),
             };
-            new.insert(old, replaced);
+            new.push(replaced);
         }
-        new.get(&e).copied().unwrap_or(e)
+        new.last().copied().unwrap_or(e)
     }
 
     /// The node `old` with its operands exchanged.
-    fn rebuild(&mut self, old: Expr, node: Node, new: &HashMap<Expr, Expr>) -> Expr {
-        let at = |a: Expr| new.get(&a).copied().unwrap_or(a);
+    fn rebuild(&mut self, old: Expr, node: Node, at: impl Fn(Expr) -> Expr) -> Expr {
         if node.operands().all(|a| at(a) == a) {
             return old;
         }

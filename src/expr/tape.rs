@@ -4,6 +4,7 @@
 //! come first and are computed once for a context; then come the inputs, then the rest.
 
 use super::graph::{Expr, Graph, Node, SymId};
+use super::parts::Parts;
 use crate::number::{Dual, Elliptic, Func, Number};
 use rustc_hash::FxHashMap as HashMap;
 use std::sync::Arc;
@@ -180,9 +181,9 @@ fn run<N: Number>(slots: &mut [N], instruction: &Instruction) {
 /// Gives every expression a slot.
 struct Compiler<'g> {
     graph: &'g Graph,
-    /// Operands first.
-    order: Vec<Expr>,
-    slot: HashMap<Expr, Slot>,
+    parts: Parts,
+    /// The slot of each part.
+    slot: Vec<Option<Slot>>,
     /// The sine and cosine of the same angle, by that angle, where both are wanted.
     both: HashMap<Expr, (Expr, Expr)>,
     next: Slot,
@@ -190,43 +191,55 @@ struct Compiler<'g> {
 
 impl<'g> Compiler<'g> {
     fn new(graph: &'g Graph, outputs: &[Expr]) -> Self {
-        let order = graph.reachable(outputs);
+        let parts = graph.parts(outputs);
         let calls = |f: Func| {
-            order.iter().filter_map(move |&e| match *graph.node(e) {
+            parts.order().iter().filter_map(move |&e| match *graph.node(e) {
                 Node::Call(g, a) if g == f => Some((a, e)),
                 _ => None,
             })
         };
         let sines: HashMap<Expr, Expr> = calls(Func::Sin).collect();
         let both = calls(Func::Cos).filter_map(|(a, cos)| Some((a, (*sines.get(&a)?, cos)))).collect();
-        Compiler { graph, order, slot: HashMap::default(), both, next: 0 }
+        let slot = vec![None; parts.order().len()];
+        Compiler { graph, parts, slot, both, next: 0 }
     }
 
     fn compile(mut self, outputs: &[Expr]) -> Tape {
-        let mut constant: HashMap<Expr, bool> = HashMap::default();
-        let mut inputs = Vec::new();
-        for &e in &self.order {
+        let mut constant: Vec<bool> = Vec::with_capacity(self.slot.len());
+        let (mut inputs, mut constants, mut variables) = (Vec::new(), Vec::new(), Vec::new());
+        for &e in self.parts.order() {
             let node = self.graph.node(e);
-            let of_constants = node.operands().all(|a| constant.get(&a) == Some(&true));
+            let is_constant = |a: Expr| self.parts.position(a).is_some_and(|i| constant[i]);
+            let of_constants = !matches!(node, Node::Symbol(_)) && node.operands().all(is_constant);
             if let Node::Symbol(s) = *node {
                 inputs.push((s, e));
             }
-            constant.insert(e, of_constants && !matches!(node, Node::Symbol(_)));
+            constant.push(of_constants);
+            if of_constants { constants.push(e) } else { variables.push(e) }
         }
         inputs.sort_unstable();
-        let (constants, variables): (Vec<_>, Vec<_>) =
-            std::mem::take(&mut self.order).into_iter().partition(|e| constant.get(e) == Some(&true));
         let constants = self.instructions(&constants);
         let first_input = self.next as usize;
         for &(_, e) in &inputs {
             let slot = self.take(1);
-            self.slot.insert(e, slot);
+            self.place(e, slot);
         }
         let instructions = self.instructions(&variables);
-        let outputs = outputs.iter().filter_map(|e| self.slot.get(e).copied()).collect();
+        let outputs = outputs.iter().filter_map(|e| self.at(*e)).collect();
         let inputs = inputs.into_iter().map(|(s, _)| s).collect();
         let slots = self.next as usize;
         Tape { program: Arc::new(Program { constants, inputs, first_input, instructions, slots, outputs }) }
+    }
+
+    /// The slot of an expression, if it has one yet.
+    fn at(&self, e: Expr) -> Option<Slot> {
+        self.slot[self.parts.position(e)?]
+    }
+
+    fn place(&mut self, e: Expr, slot: Slot) {
+        if let Some(i) = self.parts.position(e) {
+            self.slot[i] = Some(slot);
+        }
     }
 
     fn take(&mut self, count: Slot) -> Slot {
@@ -238,7 +251,7 @@ impl<'g> Compiler<'g> {
     fn instructions(&mut self, order: &[Expr]) -> Vec<Instruction> {
         let mut instructions = Vec::with_capacity(order.len());
         for &e in order {
-            if self.slot.contains_key(&e) {
+            if self.at(e).is_some() {
                 continue; // an input, or the cosine that came with its sine
             }
             let Some(op) = self.op(e) else { continue };
@@ -249,12 +262,11 @@ impl<'g> Compiler<'g> {
             match (op, *self.graph.node(e)) {
                 (Op::SinCos(_), Node::Call(_, a)) => {
                     if let Some(&(sin, cos)) = self.both.get(&a) {
-                        self.slot.extend([(sin, to), (cos, to + 1)]);
+                        self.place(sin, to);
+                        self.place(cos, to + 1);
                     }
                 }
-                _ => {
-                    self.slot.insert(e, to);
-                }
+                _ => self.place(e, to),
             }
             instructions.push(Instruction { to, op });
         }
@@ -263,7 +275,7 @@ impl<'g> Compiler<'g> {
 
     /// The operation of a node, whose operands all have their slots; none for a symbol.
     fn op(&self, e: Expr) -> Option<Op> {
-        let at = |a: Expr| self.slot.get(&a).copied();
+        let at = |a: Expr| self.at(a);
         Some(match *self.graph.node(e) {
             Node::Symbol(_) => return None,
             Node::Rational(n, d) => Op::Ratio(n, d),

@@ -76,6 +76,12 @@ fn field_laws<N: Spread>(cx: &N::Context) {
         close(&a.plus(&b).minus(&b).plus(&b), &a.plus(&b), 4.0, "a + b - b + b = a + b");
         close(&a.times(&one), &a, 1.0, "1a = a");
         close(&a.minus(&b), &b.minus(&a).negated(), 0.0, "a - b = -(b - a)");
+        let mut sum = c.clone();
+        sum.add_product(&a, &b);
+        let product = a.times(&b);
+        // Where c and ab cancel, only their own size tells how much the roundings are.
+        let size = c.apply(Func::Abs).plus(&product.apply(Func::Abs)).times(&N::from_f64(4.0, cx));
+        close(&sum.plus(&size), &c.plus(&product).plus(&size), 2.0, "c + ab");
         let square = a.to_the(2);
         close(&square, &a.times(&a), 3.0, "a² = aa");
         close(&square.root(), &a.apply(Func::Abs), 4.0, "√a² = |a|");
@@ -86,6 +92,34 @@ fn field_laws<N: Spread>(cx: &N::Context) {
         let twice = p.times(&q).plus(&p.times(&q));
         close(&p.plus(&q).to_the(2), &p.to_the(2).plus(&twice).plus(&q.to_the(2)), 5.0, "(a + b)²");
     }
+}
+
+/// (1 + x)ⁿ by repeated products of power series has the binomial coefficients; the lengths pass every remainder.
+fn convolutions<N: Spread>(cx: &N::Context) {
+    let n = |x: f64| N::from_f64(x, cx);
+    let (factor, mut power) = ([n(1.0), n(1.0)], vec![n(1.0)]);
+    for exponent in 1..=13 {
+        let mut padded = power.clone();
+        padded.push(n(0.0));
+        let mut other = factor.to_vec();
+        other.resize(padded.len(), n(0.0));
+        let coefficient = |k: usize| {
+            let mut sum = n(7.0);
+            sum.set_convolution(&padded[..=k], &other[..=k]);
+            sum
+        };
+        power = (0..padded.len()).map(coefficient).collect();
+        let mut binomial = 1.0;
+        for (k, found) in power.iter().enumerate() {
+            close(found, &n(binomial), 4.0, "a binomial coefficient");
+            binomial = binomial * (exponent - k) as f64 / (k + 1) as f64;
+        }
+    }
+    let mut sum = n(7.0);
+    sum.set_convolution(&[n(2.0), n(3.0), n(5.0)], &[n(7.0), n(11.0)]);
+    close(&sum, &n(43.0), 1.0, "the shorter one says how many terms");
+    sum.set_convolution(&[], &[n(7.0)]);
+    assert!(sum.log2_abs() == f64::NEG_INFINITY, "no terms");
 }
 
 fn functional_equations<N: Spread>(cx: &N::Context) {
@@ -199,6 +233,7 @@ fn special_values<N: Spread>(cx: &N::Context) {
 /// What every number type must pass.
 fn conforms<N: Spread>(cx: &N::Context) {
     field_laws::<N>(cx);
+    convolutions::<N>(cx);
     functional_equations::<N>(cx);
     special_values::<N>(cx);
 }

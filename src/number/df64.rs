@@ -183,6 +183,9 @@ impl Number for Df64 {
     fn set_elliptic(&mut self, f: Elliptic, x: &[&Self]) {
         *self = elliptic::double(f, x);
     }
+    fn add_product(&mut self, a: &Self, b: &Self) {
+        *self += *a * *b;
+    }
     fn set_sin_cos(sin: &mut Self, cos: &mut Self, a: &Self) {
         (*sin, *cos) = sin_cos(*a);
     }
@@ -222,7 +225,7 @@ impl Real for Df64 {
     fn reach() -> f64 {
         800.0
     }
-    fn elliptic_radius(f: Elliptic, x: &[&Self], errors: &[f64]) -> f64 {
-        elliptic::double_radius(f, x, errors)
+    fn elliptic_within(f: Elliptic, x: &[&Self], errors: &[f64]) -> (Self, f64) {
+        elliptic::double_within(f, x, errors)
     }
 }

@@ -110,6 +110,19 @@ pub trait Number: Clone + Debug + Send + Sync + 'static {
         let _ = (f, x);
         *self = self.like(f64::NAN);
     }
+    /// self = self + a b, rounded once or twice.
+    fn add_product(&mut self, a: &Self, b: &Self) {
+        *self = self.plus(&a.times(b));
+    }
+    /// self = Σ aᵢ bₙ₋₁₋ᵢ over n terms, the length of the shorter of the two: a coefficient of the product of two power series.
+    /// The order of the sum is the type's own.
+    fn set_convolution(&mut self, a: &[Self], b: &[Self]) {
+        *self = self.like(0.0);
+        let n = a.len().min(b.len());
+        for (a, b) in a[..n].iter().zip(b[..n].iter().rev()) {
+            self.add_product(a, b);
+        }
+    }
     /// Sine and cosine of the same angle.
     fn set_sin_cos(sin: &mut Self, cos: &mut Self, a: &Self) {
         sin.set_call(Func::Sin, a);
@@ -200,10 +213,8 @@ pub trait Real: Number {
     /// The relative errors hold for operands whose |log₂| is at most this. Smaller ones have absolute errors below
     /// 2^(-950 - bits).
     fn reach() -> f64;
-    /// How far an elliptic function can move when its operands move within these errors, both in units of the roundoff
-    /// 2^-bits of the result; infinite where no bound is known. Its own rounding is [`elliptic::ROUNDING`].
-    fn elliptic_radius(f: Elliptic, x: &[&Self], errors: &[f64]) -> f64 {
-        let _ = (f, x, errors);
-        f64::INFINITY
-    }
+    /// An elliptic function of as many operands as it has, and how far it can move when they move within these errors,
+    /// both in units of the roundoff 2^-bits of the result; infinite where no bound is known. Its own rounding is
+    /// [`elliptic::ROUNDING`].
+    fn elliptic_within(f: Elliptic, x: &[&Self], errors: &[f64]) -> (Self, f64);
 }

@@ -139,6 +139,13 @@ impl Number for Mpfr {
     fn set_elliptic(&mut self, f: Elliptic, x: &[&Self]) {
         *self = elliptic::any_precision(f, x);
     }
+    fn add_product(&mut self, a: &Self, b: &Self) {
+        let bits = self.0.prec().max(a.0.prec()).max(b.0.prec());
+        if self.0.prec() != bits {
+            self.0.set_prec(bits);
+        }
+        self.0 += &a.0 * &b.0;
+    }
     fn set_sin_cos(sin: &mut Self, cos: &mut Self, a: &Self) {
         for x in [&mut *sin, &mut *cos] {
             if x.0.prec() != a.0.prec() {
@@ -183,7 +190,7 @@ impl Real for Mpfr {
     fn reach() -> f64 {
         f64::INFINITY
     }
-    fn elliptic_radius(f: Elliptic, x: &[&Self], errors: &[f64]) -> f64 {
-        elliptic::any_radius(f, x, errors)
+    fn elliptic_within(f: Elliptic, x: &[&Self], errors: &[f64]) -> (Self, f64) {
+        elliptic::any_within(f, x, errors)
     }
 }

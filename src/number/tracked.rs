@@ -342,11 +342,15 @@ impl<N: Real> Number for Tracked<N> {
     }
     fn set_elliptic(&mut self, f: Elliptic, x: &[&Self]) {
         let values: Vec<&N> = x.iter().map(|x| &x.value).collect();
-        self.value.set_elliptic(f, &values);
-        let unit = bits(&self.value);
+        // The result has the largest precision of its operands.
+        let unit = values.iter().map(|x| bits(*x)).max().unwrap_or_default();
         let errors: Vec<f64> = x.iter().map(|x| x.error_in(unit)).collect();
-        let moves = errors.iter().any(|e| *e > 0.0);
-        let propagated = if moves { N::elliptic_radius(f, &values, &errors) } else { 0.0 };
+        if errors.iter().all(|e| *e == 0.0) {
+            self.value.set_elliptic(f, &values);
+            return self.close(0.0, elliptic::ROUNDING);
+        }
+        let (value, propagated) = N::elliptic_within(f, &values, &errors);
+        self.value = value;
         self.close(propagated, elliptic::ROUNDING);
     }
     fn set_sin_cos(sin: &mut Self, cos: &mut Self, a: &Self) {

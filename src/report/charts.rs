@@ -3,7 +3,7 @@
 
 use super::svg::{Axis, Series, plot};
 use super::text::number;
-use crate::integrator::{CLASSICAL_4, DORMAND_PRINCE_8, IntegrationError, Tableau, integrate_fixed};
+use crate::integrator::{CLASSICAL_4, DORMAND_PRINCE_8, IntegrationError, RungeKutta, Tableau, integrate_fixed};
 use crate::scene::top::{HeavyTop, TooSlow, TopState};
 use serde::Serialize;
 use std::fmt::Display;
@@ -113,8 +113,9 @@ fn drifts(method: &Tableau, period: f64) -> Result<Vec<[f64; 3]>, ChartError> {
     let steps = EVALUATIONS / method.stages.len();
     let initial = CONSTANTS.map(|(_, f)| f(&start));
     let (mut largest, mut rows, mut step) = ([0.0f64; 3], Vec::with_capacity(PERIODS), 0);
-    integrate_fixed(method, &TOP, 0.0, &start.to_vector(), period / steps as f64, steps * PERIODS, |_, y| {
-        if let Some(state) = TopState::from_vector(y) {
+    let mut stepper = RungeKutta::new(method, &TOP, 6, &());
+    integrate_fixed(&mut stepper, (&0.0, &start.to_vector()), &(period / steps as f64), steps * PERIODS, |_, y| {
+        if let Some(state) = TopState::from_vector(y.value()) {
             for ((largest, (_, f)), initial) in largest.iter_mut().zip(CONSTANTS).zip(initial) {
                 *largest = largest.max((f(&state) / initial - 1.0).abs());
             }

@@ -10,6 +10,7 @@ pub mod html;
 pub mod json;
 mod math;
 mod mathml;
+pub mod speed;
 pub mod stability;
 mod svg;
 pub mod terminal;

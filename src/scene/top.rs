@@ -5,9 +5,32 @@
 //! notes, solved for the angular accelerations; `Omega` is the spin `omega_zeta = phi' cos(theta) + psi'`, a constant of
 //! the motion by (41).
 
+mod approximate;
+mod closed;
+mod equations;
+mod start;
+
+use super::Scene;
 use crate::integrator::System;
-use nalgebra::DVector;
 use std::f64::consts::TAU;
+
+/// The scene `top`.
+pub static SCENE: Scene = Scene {
+    name: "top",
+    about: "the heavy symmetric top: a body with a fixed point on its axis of symmetry, in uniform gravity",
+    parameters: start::PARAMETERS,
+    quantities: start::QUANTITIES,
+    models: &[
+        &approximate::Slow,
+        &approximate::Fast,
+        &approximate::Nutation,
+        &closed::Closed,
+        &equations::Reduced,
+        &equations::Axis,
+        &equations::Quaternion,
+        &equations::Euler,
+    ],
+};
 
 /// A heavy symmetric top.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -51,13 +74,13 @@ impl TopState {
     }
 
     /// The state as `[phi, theta, psi, phi', theta', psi']`.
-    pub fn to_vector(&self) -> DVector<f64> {
-        DVector::from_vec(vec![self.phi, self.theta, self.psi, self.phi_rate, self.theta_rate, self.psi_rate])
+    pub fn to_vector(&self) -> [f64; 6] {
+        [self.phi, self.theta, self.psi, self.phi_rate, self.theta_rate, self.psi_rate]
     }
 
     /// Reads `[phi, theta, psi, phi', theta', psi']`; `None` if there are not six components.
-    pub fn from_vector(y: &DVector<f64>) -> Option<Self> {
-        let &[phi, theta, psi, phi_rate, theta_rate, psi_rate] = y.as_slice() else { return None };
+    pub fn from_vector(y: &[f64]) -> Option<Self> {
+        let &[phi, theta, psi, phi_rate, theta_rate, psi_rate] = y else { return None };
         Some(TopState { phi, theta, psi, phi_rate, theta_rate, psi_rate })
     }
 }
@@ -205,8 +228,8 @@ impl HeavyTop {
     }
 }
 
-impl System for HeavyTop {
-    fn derivative(&self, _: f64, y: &DVector<f64>, slope: &mut DVector<f64>) {
+impl System<f64> for HeavyTop {
+    fn derivative(&self, _: &f64, y: &[f64], slope: &mut [f64]) {
         // A state of another length is nobody's motion: it has no derivative.
         let Some(state) = TopState::from_vector(y) else { return slope.fill(f64::NAN) };
         let [phi, theta, psi] = self.accelerations(&state);

@@ -170,7 +170,7 @@ fn of_equation(book: &Book, index: usize, seed: u64) -> Vec<Item> {
         let variables = formula.variables(&formula.outputs);
         let effort = effort(&formula.world.graph, &formula.outputs);
         let (graph, outputs) = (&formula.world.graph, formula.outputs.clone());
-        let found = search(graph, &outputs, &formula.positive, &variables, effort, &mut random)?;
+        let found = search(graph, &outputs, &formula.positive, &variables, &[], effort, &mut random)?;
         let loses = found.worst.loss.lost > MANY;
         let proposal = loses.then(|| improved(&mut formula, &variables, &found, effort, &mut random)).flatten();
         Some(Item {
@@ -205,7 +205,7 @@ fn improved(
     let states = teachers(formula, variables, before, random);
     let new = propose(&mut formula.world.graph, output, variables, &states)?;
     let sameness = same(&mut formula.world.graph, &[output], &[new], variables, random);
-    let found = search(&formula.world.graph, &[new], &formula.positive, variables, effort, random)?;
+    let found = search(&formula.world.graph, &[new], &formula.positive, variables, &states, effort, random)?;
     let gains = [
         before.fault.loss.fault() - found.fault.loss.fault(),
         before.worst.loss.lost - found.worst.loss.lost,

@@ -15,7 +15,8 @@ mod tests;
 
 pub use series::{Equations, Expansion, NoRecurrence, Series};
 
-use super::IntegrationError;
+use super::state::Compensated;
+use super::{IntegrationError, State};
 use crate::number::Number;
 
 /// An integration by Taylor series.
@@ -92,20 +93,19 @@ impl Taylor {
         let order = self.order();
         let mut expansion = series.prepare(order, parameters, &t0.context());
         let mut time = Compensated::new(t0.clone());
-        let mut y: Vec<Compensated<N>> = y0.iter().cloned().map(Compensated::new).collect();
-        let mut state = y0.to_vec();
+        let mut state = State::new(y0);
         let mut steps = 0;
         loop {
-            let left = t1.minus(&time.value).minus(&time.rest);
+            let left = time.until(t1);
             if left.log2_abs() == f64::NEG_INFINITY {
-                return Ok(Arrival { y: state, steps, order });
+                return Ok(Arrival { y: state.value().to_vec(), steps, order });
             }
             let t = time.value.to_f64();
             if steps >= self.max_steps {
                 return Err(IntegrationError::TooManySteps { t, steps });
             }
-            series.expand(&time.value, &state, &mut expansion);
-            let size = self.log2_step(&expansion, y.len());
+            series.expand(&time.value, state.value(), &mut expansion);
+            let size = self.log2_step(&expansion, y0.len());
             if size.is_nan() {
                 return Err(IntegrationError::NotFinite { t });
             }
@@ -114,10 +114,9 @@ impl Taylor {
             if !last && time.value.plus(&h).minus(&time.value).log2_abs() == f64::NEG_INFINITY {
                 return Err(IntegrationError::StepTooShort { t, h: h.to_f64() });
             }
-            observe(Step { t0: &time.value, h: &h, expansion: &expansion, dimension: y.len() });
-            for (k, component) in y.iter_mut().enumerate() {
-                component.add(&tail(expansion.of(k), &h));
-                state[k].set(&component.value);
+            observe(Step { t0: &time.value, h: &h, expansion: &expansion, dimension: y0.len() });
+            for k in 0..y0.len() {
+                state.add(k, &tail(expansion.of(k), &h));
             }
             if last {
                 time = Compensated::new(t1.clone());
@@ -164,25 +163,4 @@ fn tail<N: Number>(series: &[N], s: &N) -> N {
         sum.set_add(&product, c);
     }
     if rest.is_empty() { s.like(0.0) } else { sum.times(s) }
-}
-
-/// A sum with what its roundings have left out (Kahan, as by Neumaier for terms that are smaller than the sum).
-#[derive(Clone, Debug)]
-struct Compensated<N> {
-    value: N,
-    rest: N,
-}
-
-impl<N: Number> Compensated<N> {
-    fn new(value: N) -> Self {
-        let rest = value.like(0.0);
-        Compensated { value, rest }
-    }
-
-    fn add(&mut self, term: &N) {
-        let term = term.plus(&self.rest);
-        let sum = self.value.plus(&term);
-        self.rest = term.minus(&sum.minus(&self.value));
-        self.value = sum;
-    }
 }

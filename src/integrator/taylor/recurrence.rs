@@ -64,44 +64,14 @@ pub(super) struct Desk<N> {
     /// 0, 1, 2, ...
     pub integers: Vec<N>,
     sum: N,
-    term: N,
-    next: N,
+    other: N,
 }
 
 impl<N: Number> Desk<N> {
     pub fn new(order: usize, cx: &N::Context) -> Self {
         let zero = N::zero(cx);
         let integers = (0..=order).map(|k| N::from_f64(k as f64, cx)).collect();
-        Desk { integers, sum: zero.clone(), term: zero.clone(), next: zero }
-    }
-
-    fn clear(&mut self) {
-        self.sum.set(&self.integers[0]);
-    }
-
-    /// Adds Σ aᵢ bₙ₋ᵢ over the range of i to the sum.
-    #[inline(always)]
-    fn add(&mut self, a: &[N], b: &[N], n: usize, range: std::ops::Range<usize>) {
-        for (a, b) in a[range.clone()].iter().zip(b[n + 1 - range.end..=n - range.start].iter().rev()) {
-            self.term.set_mul(a, b);
-            self.next.set_add(&self.sum, &self.term);
-            std::mem::swap(&mut self.sum, &mut self.next);
-        }
-    }
-
-    /// The same, taken off.
-    #[inline(always)]
-    fn take(&mut self, a: &[N], b: &[N], n: usize, range: std::ops::Range<usize>) {
-        for (a, b) in a[range.clone()].iter().zip(b[n + 1 - range.end..=n - range.start].iter().rev()) {
-            self.term.set_mul(a, b);
-            self.next.set_sub(&self.sum, &self.term);
-            std::mem::swap(&mut self.sum, &mut self.next);
-        }
-    }
-
-    fn double(&mut self) {
-        self.next.set_add(&self.sum, &self.sum);
-        std::mem::swap(&mut self.sum, &mut self.next);
+        Desk { integers, sum: zero.clone(), other: zero }
     }
 }
 
@@ -138,88 +108,92 @@ pub(super) fn begin<N: Number>(op: Op, known: &[N], to: &mut [N], stride: usize,
     }
 }
 
-/// Coefficient k > 0 of the series in a slot.
+/// Coefficient k > 0 of the series in a slot. What has none but the first ones is left as it is.
 #[inline(always)]
 pub(super) fn extend<N: Number>(op: Op, known: &[N], to: &mut [N], stride: usize, k: usize, desk: &mut Desk<N>) {
-    let series = |slot: Slot| &known[slot * stride..(slot + 1) * stride];
+    let series = |slot: Slot| &known[slot * stride..][..stride];
     let at = |slot: Slot| &known[slot * stride + k];
     let (to, next) = to.split_at_mut(stride);
+    let Desk { integers, sum, other } = desk;
     match op {
-        Op::State(_) => {}
-        Op::Time => to[k].set(&desk.integers[usize::from(k == 1)]),
-        Op::Constant(_) | Op::One | Op::Sign(_) => to[k].set(&desk.integers[0]),
+        Op::State(_) | Op::Constant(_) | Op::One | Op::Sign(_) => {}
+        Op::Time => to[k].set(&integers[usize::from(k == 1)]),
         Op::Neg(a) => to[k].set_neg(at(a)),
         Op::Add(a, b) => to[k].set_add(at(a), at(b)),
         Op::Sub(a, b) => to[k].set_sub(at(a), at(b)),
         Op::Scale(c, a) => to[k].set_mul(&series(c)[0], at(a)),
-        Op::Weighted(a) => to[k].set_mul(&desk.integers[k], at(a)),
-        Op::Mul(a, b) => {
-            desk.clear();
-            desk.add(series(a), series(b), k, 0..k + 1);
-            to[k].set(&desk.sum);
+        Op::Weighted(a) => to[k].set_mul(&integers[k], at(a)),
+        Op::Mul(a, b) => to[k].set_convolution(&series(a)[..=k], &series(b)[..=k]),
+        Op::Square(a) => {
+            half_square(series(a), 0, k, sum, other);
+            to[k].set_add(sum, other);
         }
-        Op::Square(a) => square(series(a), &mut to[k], k, desk),
         Op::Div(a, b) => {
-            desk.sum.set(at(a));
-            desk.take(to, series(b), k, 0..k);
-            to[k].set_div(&desk.sum, &series(b)[0]);
+            sum.set_convolution(&to[..k], &series(b)[1..=k]);
+            other.set_sub(at(a), sum);
+            to[k].set_div(other, &series(b)[0]);
         }
         Op::Sqrt(a) => {
-            desk.sum.set(at(a));
-            desk.take(to, to, k, 1..k);
-            desk.next.set_add(&to[0], &to[0]);
-            to[k].set_div(&desk.sum, &desk.next);
+            // a = r²: 2 r₀ rₖ is aₖ less the products of those between.
+            let mut square = sum.clone();
+            half_square(to, 1, k, sum, other);
+            square.set_add(sum, other);
+            sum.set_sub(at(a), &square);
+            other.set_add(&to[0], &to[0]);
+            to[k].set_div(sum, other);
         }
         Op::Exp(_, w) => {
-            desk.clear();
-            desk.add(series(w), to, k, 1..k + 1);
-            to[k].set_div(&desk.sum, &desk.integers[k]);
+            sum.set_convolution(&series(w)[1..=k], &to[..k]);
+            to[k].set_div(sum, &integers[k]);
         }
-        Op::SinCos(_, w) | Op::SinhCosh(_, w) => {
-            desk.clear();
-            desk.add(series(w), next, k, 1..k + 1);
-            to[k].set_div(&desk.sum, &desk.integers[k]);
-            desk.clear();
-            let fall = if matches!(op, Op::SinCos(..)) { Desk::take } else { Desk::add };
-            fall(desk, series(w), to, k, 1..k + 1);
-            next[k].set_div(&desk.sum, &desk.integers[k]);
+        Op::SinCos(_, w) => {
+            sum.set_convolution(&series(w)[1..=k], &next[..k]);
+            other.set_convolution(&series(w)[1..=k], &to[..k]);
+            to[k].set_div(sum, &integers[k]);
+            sum.set_neg(other);
+            next[k].set_div(sum, &integers[k]);
+        }
+        Op::SinhCosh(_, w) => {
+            sum.set_convolution(&series(w)[1..=k], &next[..k]);
+            other.set_convolution(&series(w)[1..=k], &to[..k]);
+            to[k].set_div(sum, &integers[k]);
+            next[k].set_div(other, &integers[k]);
         }
         Op::Pow(a, w, r) => {
-            desk.clear();
-            desk.add(series(w), to, k, 1..k + 1);
-            desk.next.set_mul(&desk.sum, &series(r)[0]);
-            std::mem::swap(&mut desk.sum, &mut desk.next);
-            desk.take(next, series(a), k, 1..k);
-            next[k].set_div(&desk.sum, &series(a)[0]);
-            to[k].set_div(&next[k], &desk.integers[k]);
+            // a p' = r a' p.
+            other.set_convolution(&series(w)[1..=k], &to[..k]);
+            sum.set_mul(other, &series(r)[0]);
+            other.set_convolution(&next[1..k], &series(a)[1..k]);
+            let term = sum.minus(other);
+            next[k].set_div(&term, &series(a)[0]);
+            to[k].set_div(&next[k], &integers[k]);
         }
         Op::Integral(_, [_, w, g]) => {
-            desk.clear();
-            desk.add(series(w), series(g), k, 1..k + 1);
-            to[k].set_div(&desk.sum, &desk.integers[k]);
+            sum.set_convolution(&series(w)[1..=k], &series(g)[..k]);
+            to[k].set_div(sum, &integers[k]);
         }
         Op::Angle([_, _, wy, wx, gx, gy]) => {
-            desk.clear();
-            desk.add(series(wy), series(gx), k, 1..k + 1);
-            desk.take(series(wx), series(gy), k, 1..k + 1);
-            to[k].set_div(&desk.sum, &desk.integers[k]);
+            sum.set_convolution(&series(wy)[1..=k], &series(gx)[..k]);
+            other.set_convolution(&series(wx)[1..=k], &series(gy)[..k]);
+            let term = sum.minus(other);
+            to[k].set_div(&term, &integers[k]);
         }
         Op::Abs(a) => {
-            desk.next.set_call(Func::Sign, &series(a)[0]);
-            to[k].set_mul(&desk.next, at(a));
+            other.set_call(Func::Sign, &series(a)[0]);
+            to[k].set_mul(other, at(a));
         }
     }
 }
 
-/// Every product but the middle one comes twice.
-fn square<N: Number>(a: &[N], to: &mut N, k: usize, desk: &mut Desk<N>) {
-    desk.clear();
-    desk.add(a, a, k, 0..k.div_ceil(2));
-    desk.double();
-    if k.is_multiple_of(2) {
-        desk.term.set_mul(&a[k / 2], &a[k / 2]);
-        to.set_add(&desk.sum, &desk.term);
+/// Σ aᵢ aₖ₋ᵢ for i from `first` to k - `first` is `double` and `middle` together: every product but the middle one comes twice.
+#[inline(always)]
+fn half_square<N: Number>(a: &[N], first: usize, k: usize, double: &mut N, middle: &mut N) {
+    let below = k.div_ceil(2).max(first);
+    middle.set_convolution(&a[first..below], &a[k + 1 - below..=k - first]);
+    double.set_add(middle, middle);
+    if k.is_multiple_of(2) && k / 2 >= first {
+        middle.set_mul(&a[k / 2], &a[k / 2]);
     } else {
-        to.set(&desk.sum);
+        middle.set_convolution(&[], &[]);
     }
 }

@@ -35,6 +35,8 @@ pub struct NoRecurrence {
 #[derive(Clone, Debug)]
 pub struct Series {
     ops: Vec<(Slot, Op)>,
+    /// Those of them that are more than a number.
+    moving: Vec<(Slot, Op)>,
     slots: usize,
     rates: Vec<Slot>,
     dimension: usize,
@@ -74,7 +76,9 @@ impl Series {
         }
         let rates = rates.iter().filter_map(|e| compiler.of.get(e).copied()).collect();
         let constants = Tape::compile(graph, &constants);
-        Ok(Series { ops: compiler.ops, slots: compiler.slots, rates, dimension: state.len(), constants })
+        let still = |op: &Op| matches!(op, Op::State(_) | Op::Constant(_) | Op::One | Op::Sign(_));
+        let moving = compiler.ops.iter().copied().filter(|(_, op)| !still(op)).collect();
+        Ok(Series { ops: compiler.ops, moving, slots: compiler.slots, rates, dimension: state.len(), constants })
     }
 
     /// The number of components of the state.
@@ -104,7 +108,8 @@ impl Series {
             coefficients[k * stride].set(y);
         }
         for k in 0..*order {
-            for &(slot, op) in &self.ops {
+            // From the second coefficient on numbers have none.
+            for &(slot, op) in if k == 0 { &self.ops } else { &self.moving } {
                 let (known, to) = coefficients.split_at_mut(slot * stride);
                 match (k, op) {
                     (0, Op::Time) => to[0].set(t),

@@ -39,7 +39,9 @@ impl Parser<'_> {
             return Ok(above);
         }
         self.advance();
-        let below = self.list()?;
+        // Nothing below stands right after `\over`, not at the cell or row that comes next.
+        let nothing = self.at_end() && self.peek() != Some(TokenKind::Comma);
+        let below = if nothing { self.empty() } else { self.list()? };
         if self.peek() == Some(TokenKind::Over) {
             return Err(self.unexpected("the end of the fraction").help("put each `\\over` in braces of its own"));
         }

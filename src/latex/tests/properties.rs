@@ -324,6 +324,7 @@ fn printed_formulas_are_read_as_they_were_meant() {
         r"\operatorname{arg\,max} x",
         r"\operatorname{a%b} x + 1",
         r"t = \begin{pmatrix} a \\ \mu \\ \\ \\ \end{pmatrix}",
+        r"\over&\\",
     ] {
         assert!(parse(formula).is_ok(), "{formula}");
         check_source(formula);

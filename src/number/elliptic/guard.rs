@@ -1,11 +1,11 @@
 //! Guard digits: which numbers the algorithms run on for a result of this or that number.
 //!
-//! Machine numbers run on double-doubles, and on 256 bits where those lose too much; double-doubles on 256 bits; `Mpfr`
-//! on 64 bits more, and on more again.
+//! Machine numbers run on double-doubles, and on 256 bits where those lose too much; double-doubles on 128 bits, and on
+//! 256 likewise; `Mpfr` on 64 bits more, and on more again.
 
 use super::super::{Df64, Number};
 use super::arithmetic::{Arithmetic, Spread};
-use super::float256::Float256;
+use super::wide::Wide;
 use super::{Argument, Elliptic, MOST_ARGUMENTS, Outcome, run};
 
 /// Bits that the algorithms' own roundings may take, beyond those whose loss is estimated.
@@ -35,20 +35,24 @@ fn from_machine(x: &f64) -> Argument<Df64> {
     Argument { value: Df64::from(*x), complement: Df64::from(1.0) - Df64::from(*x) }
 }
 
-fn from_double(x: &Df64) -> Argument<Float256> {
+fn from_double<const W: usize>(x: &Df64) -> Argument<Wide<W>> {
     // Without rounding: 1 - hi may be small, and then lo counts.
     let rest = Df64::from(1.0) - Df64::from(x.hi());
-    let complement = Float256::from_df64(rest).difference(&Float256::from_df64(Df64::from(x.lo())));
-    Argument { value: Float256::from_df64(*x), complement }
+    let complement = Wide::from_df64(rest).difference(&Wide::from_df64(Df64::from(x.lo())));
+    Argument { value: Wide::from_df64(*x), complement }
+}
+
+/// Whether double-doubles are wide enough for these machine numbers.
+fn near(x: &[&f64]) -> bool {
+    x.iter().all(|x| **x == 0.0 || x.abs().log2().abs() < DOUBLE_REACH)
 }
 
 /// f of machine numbers.
 pub(in crate::number) fn machine(f: Elliptic, x: &[&f64]) -> f64 {
-    let near = x.iter().all(|x| **x == 0.0 || x.abs().log2().abs() < DOUBLE_REACH);
-    let first = arguments(f, x, from_machine).filter(|_| near).and_then(|x| kept(run(f, &x), 53));
+    let first = arguments(f, x, from_machine).filter(|_| near(x)).and_then(|x| kept(run(f, &x), 53));
     match first {
         Some(value) => value.hi(),
-        None => arguments(f, x, |x| from_double(&Df64::from(*x)))
+        None => arguments(f, x, |x| from_double::<4>(&Df64::from(*x)))
             .and_then(|x| kept(run(f, &x), 53))
             .map_or(f64::NAN, |value| value.approx()),
     }
@@ -56,8 +60,11 @@ pub(in crate::number) fn machine(f: Elliptic, x: &[&f64]) -> f64 {
 
 /// f of double-doubles.
 pub(in crate::number) fn double(f: Elliptic, x: &[&Df64]) -> Df64 {
-    let value = arguments(f, x, from_double).and_then(|x| kept(run(f, &x), 104));
-    value.map_or(Df64::from(f64::NAN), Float256::to_df64)
+    fn with<const W: usize>(f: Elliptic, x: &[&Df64]) -> Option<Df64> {
+        let value = kept(run(f, &arguments(f, x, from_double::<W>)?), 104)?;
+        Some(value.to_df64())
+    }
+    with::<2>(f, x).or_else(|| with::<4>(f, x)).unwrap_or(Df64::from(f64::NAN))
 }
 
 /// The arguments with their errors, in units of 2^-`unit`.
@@ -71,15 +78,26 @@ fn spreads<W: Arithmetic>(f: Elliptic, x: Arguments<W>, errors: &[f64], unit: u3
     })
 }
 
-/// How far f can move when machine numbers move within their errors, both in units of 2^-53.
-pub(in crate::number) fn machine_radius(f: Elliptic, x: &[&f64], errors: &[f64]) -> f64 {
-    let wide = arguments(f, x, |x| from_double(&Df64::from(*x)));
-    wide.map_or(f64::INFINITY, |x| run(f, &spreads(f, x, errors, 53)).value.radius)
+/// f of machine numbers, and how far it can move when they move within their errors, both in units of 2^-53.
+pub(in crate::number) fn machine_within(f: Elliptic, x: &[&f64], errors: &[f64]) -> (f64, f64) {
+    let first = arguments(f, x, from_machine).filter(|_| near(x));
+    if let Some(Spread { value, radius, .. }) = first.and_then(|x| kept(run(f, &spreads(f, x, errors, 53)), 53)) {
+        return (value.hi(), radius);
+    }
+    arguments(f, x, |x| from_double::<4>(&Df64::from(*x)))
+        .and_then(|x| kept(run(f, &spreads(f, x, errors, 53)), 53))
+        .map_or((f64::NAN, f64::INFINITY), |Spread { value, radius, .. }| (value.approx(), radius))
 }
 
-/// How far f can move when double-doubles move within their errors, both in units of 2^-104.
-pub(in crate::number) fn double_radius(f: Elliptic, x: &[&Df64], errors: &[f64]) -> f64 {
-    arguments(f, x, from_double).map_or(f64::INFINITY, |x| run(f, &spreads(f, x, errors, 104)).value.radius)
+/// f of double-doubles, and how far it can move when they move within their errors, both in units of 2^-104.
+pub(in crate::number) fn double_within(f: Elliptic, x: &[&Df64], errors: &[f64]) -> (Df64, f64) {
+    fn with<const W: usize>(f: Elliptic, x: &[&Df64], errors: &[f64]) -> Option<(Df64, f64)> {
+        let wide = spreads(f, arguments(f, x, from_double::<W>)?, errors, 104);
+        let Spread { value, radius, .. } = kept(run(f, &wide), 104)?;
+        Some((value.to_df64(), radius))
+    }
+    let value = with::<2>(f, x, errors).or_else(|| with::<4>(f, x, errors));
+    value.unwrap_or((Df64::from(f64::NAN), f64::INFINITY))
 }
 
 #[cfg(feature = "rug")]
@@ -125,12 +143,13 @@ mod any {
         undefined
     }
 
-    /// How far f can move when the arguments move within their errors, in units of the roundoff of the result.
-    pub(in crate::number) fn any_radius(f: Elliptic, x: &[&Mpfr], errors: &[f64]) -> f64 {
+    /// f, and how far it can move when the arguments move within their errors, in units of the roundoff of the result.
+    pub(in crate::number) fn any_within(f: Elliptic, x: &[&Mpfr], errors: &[f64]) -> (Mpfr, f64) {
         let bits = largest(x);
         let wide = arguments(f, x, |x| from_mpfr(x, bits.saturating_mul(2)));
-        wide.map_or(f64::INFINITY, |x| run(f, &spreads(f, x, errors, bits)).value.radius)
+        let radius = wide.map_or(f64::INFINITY, |x| run(f, &spreads(f, x, errors, bits)).value.radius);
+        (any_precision(f, x), radius)
     }
 }
 #[cfg(feature = "rug")]
-pub(in crate::number) use any::{any_precision, any_radius};
+pub(in crate::number) use any::{any_precision, any_within};

@@ -25,9 +25,9 @@
 //!   algorithm on [`Spread`]s. [`Dual`](super::Dual) and [`Jet`](super::Jet) are by [`slope`].
 
 mod arithmetic;
+pub mod bare;
 mod carlson;
 mod complete;
-mod float256;
 mod guard;
 mod incomplete;
 mod jacobi;
@@ -35,10 +35,11 @@ mod series;
 mod slope;
 #[cfg(test)]
 mod tests;
+mod wide;
 
 #[cfg(feature = "rug")]
-pub(super) use guard::{any_precision, any_radius};
-pub(super) use guard::{double, double_radius, machine, machine_radius};
+pub(super) use guard::{any_precision, any_within};
+pub(super) use guard::{double, double_within, machine, machine_within};
 pub(super) use series::{dual, jet};
 pub use slope::{Rules, slope};
 

@@ -1,5 +1,5 @@
 use super::*;
-use crate::integrator::{Adaptive, DORMAND_PRINCE_8, RungeKutta};
+use crate::integrator::Adaptive;
 
 const TOP: HeavyTop = HeavyTop { transverse: 0.010, axial: 0.012, torque: 0.10 };
 const THETA: f64 = 0.6;
@@ -18,9 +18,11 @@ fn accelerations_satisfy_eulers_equations() {
         ]
     };
     let after = |dt: f64| {
-        let mut slope = DVector::zeros(6);
-        TOP.derivative(0.0, &state.to_vector(), &mut slope);
-        TopState::from_vector(&(state.to_vector() + slope * dt)).unwrap()
+        let mut y = state.to_vector();
+        let mut slope = [0.0; 6];
+        TOP.derivative(&0.0, &y, &mut slope);
+        y.iter_mut().zip(slope).for_each(|(y, slope)| *y += slope * dt);
+        TopState::from_vector(&y).unwrap()
     };
     let dt = 1e-6;
     let (before, later, [x, y, z]) = (omega(&after(-dt)), omega(&after(dt)), omega(&state));
@@ -42,8 +44,9 @@ fn the_constants_are_constant_and_the_angles_are_not() {
     let start = TopState { theta_rate: 0.4, ..TopState::turning(THETA, 1.0, 100.0) };
     let mut turned = 0.0f64;
     let driver = Adaptive::with_tolerance(1e-13);
-    let end =
-        driver.integrate(&TOP, 0.0, &start.to_vector(), 2.0, |s| turned = turned.max((s.y1[1] - THETA).abs())).unwrap();
+    let end = driver
+        .integrate(&TOP, (&0.0, &start.to_vector()), &2.0, |s| turned = turned.max((s.y1[1] - THETA).abs()))
+        .unwrap();
     let end = TopState::from_vector(&end.y).unwrap();
     assert!(turned > 1e-3);
     assert!((TOP.vertical_momentum(&end) / TOP.vertical_momentum(&start) - 1.0).abs() < 1e-11);
@@ -107,21 +110,20 @@ fn closed_form_nutation_agrees_with_the_integrated_motion() {
 
 /// The times at which `theta'` vanishes after the start, with the inclinations there.
 fn turning_points(start: &TopState, until: f64) -> Vec<(f64, f64)> {
-    let mut stepper = RungeKutta::new(&DORMAND_PRINCE_8, 6);
     let mut found = Vec::new();
-    let locate = |s: crate::integrator::Step<'_>| {
-        if s.t0 == 0.0 || s.y0[4] * s.y1[4] > 0.0 {
+    let locate = |mut s: crate::integrator::Step<'_, '_, f64, HeavyTop>| {
+        if *s.t0 == 0.0 || s.y0[4] * s.y1[4] > 0.0 {
             return;
         }
         let mut h = (s.t1 - s.t0) * s.y0[4] / (s.y0[4] - s.y1[4]);
-        let mut y = s.y0.clone();
+        let mut y = [0.0; 6];
         for _ in 0..8 {
-            stepper.step(&TOP, s.t0, s.y0, h, &mut y);
+            s.at(&h, &mut y);
             h -= y[4] / TOP.accelerations(&TopState::from_vector(&y).unwrap())[1];
         }
         found.push((s.t0 + h, y[1]));
     };
-    Adaptive::with_tolerance(1e-13).integrate(&TOP, 0.0, &start.to_vector(), until, locate).unwrap();
+    Adaptive::with_tolerance(1e-13).integrate(&TOP, (&0.0, &start.to_vector()), &until, locate).unwrap();
     found
 }
 

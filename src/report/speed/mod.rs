@@ -1,0 +1,178 @@
+//! `speed.html` and `speed.json`: what accuracy costs in each scene, model by model.
+
+mod chart;
+mod view;
+
+use std::path::Path;
+
+use serde::Serialize;
+use tera::{Context, Tera};
+
+use super::write::pair;
+use super::{ReportError, Written};
+use crate::scene::Scene;
+use crate::scene::speed::{Pick, Run, Sweep, front};
+
+/// The version of `speed.json`. It rises when a field changes its meaning or goes.
+pub const SCHEMA: u32 = 1;
+
+const STYLE: &str = include_str!("../../../templates/style.css");
+
+const TEMPLATES: [(&str, &str); 2] = [
+    ("speed.html", include_str!("../../../templates/speed.html")),
+    ("chart.html", include_str!("../../../templates/chart.html")),
+];
+
+/// What was measured of a scene.
+#[derive(Clone, Debug)]
+pub struct Measured {
+    /// What was computed.
+    pub sweep: Sweep,
+    /// Each model at each tolerance.
+    pub runs: Vec<Run>,
+    /// What the scene picks by itself.
+    pub picks: Vec<Pick>,
+}
+
+impl Measured {
+    fn scene(&self) -> &'static Scene {
+        self.sweep.scene
+    }
+
+    fn until(&self) -> f64 {
+        self.sweep.times.last().copied().unwrap_or(0.0)
+    }
+
+    /// Whether no other run is both faster and better.
+    fn on_front(&self) -> Vec<bool> {
+        let front = front(&self.runs);
+        self.runs.iter().map(|run| front.iter().any(|f| std::ptr::eq(*f, run))).collect()
+    }
+}
+
+#[derive(Serialize)]
+struct Data<'a> {
+    schema: u32,
+    kenzan: &'static str,
+    scenes: Vec<SceneData<'a>>,
+}
+
+#[derive(Serialize)]
+struct SceneData<'a> {
+    scene: &'static str,
+    quantities: Vec<&'static str>,
+    until: f64,
+    values: usize,
+    runs: Vec<RunData>,
+    picks: Vec<PickData<'a>>,
+}
+
+#[derive(Serialize)]
+struct RunData {
+    model: &'static str,
+    arithmetic: String,
+    tolerance: Option<f64>,
+    error: Option<f64>,
+    seconds: f64,
+    evaluations: usize,
+    steps: usize,
+    on_front: bool,
+}
+
+#[derive(Serialize)]
+struct PickData<'a> {
+    asked: f64,
+    model: Option<&'static str>,
+    arithmetic: Option<String>,
+    error: Option<f64>,
+    seconds: Option<f64>,
+    seconds_with_choice: f64,
+    why_not: Option<&'a str>,
+}
+
+/// The measurements as JSON.
+///
+/// # Errors
+/// [`ReportError::Json`]
+pub fn json(scenes: &[Measured]) -> Result<String, ReportError> {
+    let data = Data { schema: SCHEMA, kenzan: env!("CARGO_PKG_VERSION"), scenes: scenes.iter().map(data).collect() };
+    Ok(serde_json::to_string_pretty(&data)? + "\n")
+}
+
+fn data(measured: &Measured) -> SceneData<'_> {
+    let scene = measured.scene();
+    let run = |(run, on_front): (&Run, bool)| RunData {
+        model: run.model.name,
+        arithmetic: run.arithmetic.name(),
+        tolerance: run.tolerance,
+        error: run.error.is_finite().then_some(run.error),
+        seconds: run.seconds,
+        evaluations: run.cost.evaluations,
+        steps: run.cost.steps,
+        on_front,
+    };
+    let pick = |pick: &'_ Pick| {
+        let taken = pick.taken.as_ref().ok();
+        PickData {
+            asked: pick.asked,
+            model: taken.map(|t| t.model.name),
+            arithmetic: taken.map(|t| t.arithmetic.name()),
+            error: taken.map(|t| t.error),
+            seconds: taken.map(|t| t.seconds),
+            seconds_with_choice: pick.seconds,
+            why_not: None,
+        }
+    };
+    let mut picks: Vec<PickData> = measured.picks.iter().map(pick).collect();
+    for (data, pick) in picks.iter_mut().zip(&measured.picks) {
+        data.why_not = pick.taken.as_ref().err().map(String::as_str);
+    }
+    SceneData {
+        scene: scene.name,
+        quantities: measured.sweep.quantities.iter().filter_map(|q| scene.quantities.get(*q)).map(|q| q.name).collect(),
+        until: measured.until(),
+        values: measured.sweep.times.len(),
+        runs: measured.runs.iter().zip(measured.on_front()).map(run).collect(),
+        picks,
+    }
+}
+
+/// The page.
+///
+/// # Errors
+/// [`ReportError::Template`]: a template does not fit the data, which is a defect of Kenzan.
+pub fn html(scenes: &[Measured]) -> Result<String, ReportError> {
+    let mut tera = Tera::new();
+    tera.add_raw_templates(TEMPLATES)?;
+    let mut context = Context::from_serialize(&view::page(scenes)?)?;
+    context.insert("style", STYLE);
+    Ok(tera.render("speed.html", &context)?)
+}
+
+/// Writes `speed.html` and `speed.json` into the directory `out`, which is created if need be.
+///
+/// # Errors
+/// [`ReportError`]
+pub fn write(scenes: &[Measured], out: &Path) -> Result<Written, ReportError> {
+    pair(out, "speed", &html(scenes)?, &json(scenes)?)
+}
+
+/// What a scene takes for each error asked for, in plain text.
+pub fn table(measured: &Measured) -> String {
+    let mut text = format!("{}: {}\n", measured.scene().name, measured.scene().about);
+    for pick in &measured.picks {
+        let taken = match &pick.taken {
+            Ok(t) => format!(
+                "{:<16} in {:<14} error {:.1e}  {:>10.3} ms ({:.3} ms with the choice)",
+                t.model.name,
+                t.arithmetic.name(),
+                t.error,
+                t.seconds * 1e3,
+                pick.seconds * 1e3
+            ),
+            Err(why) => why.clone(),
+        };
+        text += &format!("  {:>6.0e}  {taken}\n", pick.asked);
+    }
+    text
+}
