@@ -42,6 +42,8 @@ pub struct Scene {
     pub name: &'static str,
     /// One line.
     pub about: &'static str,
+    /// The unit of the times: "s", or "yr" for the Julian year of 365.25 days.
+    pub time: &'static str,
     /// The parameters, those of the initial state included.
     pub parameters: &'static [Parameter],
     /// What may be asked for.

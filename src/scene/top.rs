@@ -18,6 +18,7 @@ use std::f64::consts::TAU;
 pub static SCENE: Scene = Scene {
     name: "top",
     about: "the heavy symmetric top: a body with a fixed point on its axis of symmetry, in uniform gravity",
+    time: "s",
     parameters: start::PARAMETERS,
     quantities: start::QUANTITIES,
     models: &[
