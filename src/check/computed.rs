@@ -102,7 +102,13 @@ fn of_clause(source: &Source, clause: &Clause) -> Vec<Computed> {
             (false, true) => Some((left, &clause.lhs)),
             (false, false) => None,
         }?;
-        finished(source, world, outputs, crate::latex::to_latex(node))
+        let latex = crate::latex::to_latex(node);
+        let latex = match (count, number % 2) {
+            (1, _) => latex,
+            (_, 0) => format!(r"{latex} \quad \text{{(upper sign)}}"),
+            _ => format!(r"{latex} \quad \text{{(lower sign)}}"),
+        };
+        finished(source, world, outputs, latex)
     };
     (0..count).filter_map(branch).collect()
 }

@@ -78,7 +78,9 @@ fn field_laws<N: Spread>(cx: &N::Context) {
         close(&a.minus(&b), &b.minus(&a).negated(), 0.0, "a - b = -(b - a)");
         let mut sum = c.clone();
         sum.add_product(&a, &b);
-        let (product, size) = (a.times(&b), c.apply(Func::Abs).plus(&a.times(&b).apply(Func::Abs)));
+        let product = a.times(&b);
+        // Where c and ab cancel, only their own size tells how much the roundings are.
+        let size = c.apply(Func::Abs).plus(&product.apply(Func::Abs)).times(&N::from_f64(4.0, cx));
         close(&sum.plus(&size), &c.plus(&product).plus(&size), 2.0, "c + ab");
         let square = a.to_the(2);
         close(&square, &a.times(&a), 3.0, "a² = aa");

@@ -21,6 +21,7 @@ fn motions(scene: &Scene) -> Vec<Case> {
     match scene.name {
         "top" => cases.extend(top_motions()),
         "free" => cases.extend(free_motions()),
+        "mercury" => cases.extend(mercury_motions()),
         _ => {}
     }
     cases
@@ -61,6 +62,16 @@ fn free_motions() -> [Case; 9] {
         case("nearly equal moments", &[("A", 1.999_999_999)], 20.0),
         case("another order", &[("A", 3.0), ("B", 1.0), ("C", 2.0), ("omega_3", -0.6)], 20.0),
         case("yet another order", &[("A", 2.0), ("B", 3.5), ("C", 1.0), ("omega_2", -0.9)], 20.0),
+    ]
+}
+
+/// In units of n.
+fn mercury_motions() -> [Case; 4] {
+    [
+        case("libration", &[("n", 1.0)], 200.0),
+        case("circulation", &[("n", 1.0), ("spin_0", 1.6), ("l_0", 2.0)], 200.0),
+        case("eccentric orbit", &[("n", 1.0), ("e", 0.6), ("epsilon", 1e-3)], 100.0),
+        case("circular orbit", &[("n", 1.0), ("e", 0.0), ("epsilon", 0.1), ("spin_0", 1.0)], 100.0),
     ]
 }
 

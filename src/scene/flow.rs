@@ -1,8 +1,10 @@
 //! Equations of motion in formulas that read like them, compiled to Taylor series.
 
 use super::SceneError;
-use crate::expr::{Expr, Func, Graph};
+use crate::expr::{Expr, Func, Graph, SymId};
+use crate::integrator::Rates;
 use crate::integrator::taylor::{Equations, Series};
+use crate::number::Number;
 use std::cell::RefCell;
 use std::ops::{Add, Div, Mul, Neg, Sub};
 
@@ -78,6 +80,29 @@ impl Flow {
         state: [&str; N],
         rates: impl for<'g> FnOnce([Term<'g>; N]) -> [Term<'g>; N],
     ) -> Result<Flow, SceneError> {
+        let (graph, symbols, rates) = Self::build(state, rates);
+        let series = Series::compile(&Equations { graph: &graph, state: &symbols, rates: &rates, time: None })?;
+        let names = series.parameters().iter().map(|s| graph.info(*s).name.clone()).collect();
+        Ok(Flow { series, names })
+    }
+
+    /// The same system for methods that ask for its rates, with its parameters by name.
+    pub fn rates<const N: usize, T: Number>(
+        state: [&str; N],
+        rates: impl for<'g> FnOnce([Term<'g>; N]) -> [Term<'g>; N],
+        named: &[(&str, T)],
+        cx: &T::Context,
+    ) -> Rates<T> {
+        let (graph, symbols, rates) = Self::build(state, rates);
+        let equations = Equations { graph: &graph, state: &symbols, rates: &rates, time: None };
+        let of = |name: &str| named.iter().find(|(known, _)| *known == name).map(|(_, value)| value.clone());
+        Rates::compile(&equations, cx, |s| of(&graph.info(s).name).unwrap_or_else(|| T::from_f64(f64::NAN, cx)))
+    }
+
+    fn build<const N: usize>(
+        state: [&str; N],
+        rates: impl for<'g> FnOnce([Term<'g>; N]) -> [Term<'g>; N],
+    ) -> (Graph, [SymId; N], [Expr; N]) {
         let graph = RefCell::new(Graph::new());
         let symbols = state.map(|name| graph.borrow_mut().symbol(name));
         let terms = symbols.map(|s| {
@@ -85,10 +110,7 @@ impl Flow {
             Term { graph: &graph, expr }
         });
         let rates = rates(terms).map(|t| t.expr);
-        let graph = graph.borrow();
-        let series = Series::compile(&Equations { graph: &graph, state: &symbols, rates: &rates, time: None })?;
-        let names = series.parameters().iter().map(|s| graph.info(*s).name.clone()).collect();
-        Ok(Flow { series, names })
+        (graph.into_inner(), symbols, rates)
     }
 
     /// The values of the parameters in the system's order, from their values by name; the others are not needed.

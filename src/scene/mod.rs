@@ -19,10 +19,12 @@ mod choice;
 mod choice_tests;
 #[cfg(test)]
 mod conformance;
+pub mod drift;
 mod error;
 mod flow;
 pub mod free;
 mod jacobi;
+pub mod mercury;
 mod model;
 mod path;
 mod precise;
@@ -75,7 +77,7 @@ pub struct Quantity {
 }
 
 /// All scenes.
-pub static SCENES: &[&Scene] = &[&top::SCENE, &free::SCENE];
+pub static SCENES: &[&Scene] = &[&top::SCENE, &free::SCENE, &mercury::SCENE];
 
 /// The scene of this name.
 ///

@@ -17,7 +17,7 @@ use super::rules::Constants;
 use super::term::{Fraction, Leaf, Term, elliptic, function};
 
 /// What one operation costs, in bits: of two terms that lose as much, the smaller one is better.
-const OPERATION: f64 = 0.02;
+const OPERATION: f64 = 0.15;
 /// By how many bits a term must be better than another one to take its place.
 const BETTER: f64 = 1e-3;
 /// How many times all classes are gone through.

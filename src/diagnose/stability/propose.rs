@@ -86,7 +86,7 @@ mod tests {
         });
         let effort = searching::Effort { random: 32, steps: 300 };
         let run = |graph: &Graph, e: Expr| {
-            searching::search(graph, &[e], &[], &variables, effort, &mut Random::new(1, "test")).unwrap()
+            searching::search(graph, &[e], &[], &variables, &[], effort, &mut Random::new(1, "test")).unwrap()
         };
         let found = run(&graph, e);
         let new = propose(&mut graph, e, &variables, &[found.worst.state, found.fault.state.clone()]).unwrap();
@@ -126,7 +126,7 @@ mod tests {
         let e = graph.mul(square, two);
         let variables = [Variable { symbol: x, tex: "x".into(), range: [0.5, 2.0], integer: false }];
         let effort = searching::Effort { random: 32, steps: 200 };
-        let found = searching::search(&graph, &[e], &[], &variables, effort, &mut Random::new(1, "test")).unwrap();
+        let found = searching::search(&graph, &[e], &[], &variables, &[], effort, &mut Random::new(1, "test")).unwrap();
         assert!(found.fault.loss.fault() < 2.0, "{found:?}");
     }
 }

@@ -64,18 +64,20 @@ impl Goal {
     }
 }
 
-/// Searches the states of a formula. `None` where nothing is certain at any random state: it is undefined, or vanishes.
+/// Searches the states of a formula. `None` where nothing is certain at any random state: it is undefined, or vanishes. `known`
+/// are states from which steps are taken, too: another form of a formula is to be good where that one was bad.
 pub fn search(
     graph: &Graph,
     outputs: &[Expr],
     positive: &[Expr],
     variables: &[Variable],
+    known: &[Vec<f64>],
     effort: Effort,
     random: &mut Random,
 ) -> Option<Found> {
     let mut meter = Meter::new(graph, outputs, positive, variables);
     let mut space = Space::new(graph, outputs, variables);
-    let mut begin: Vec<Hard> = Vec::new();
+    let mut begin: Vec<Hard> = known.iter().filter_map(|state| measured(&mut meter, state.clone())).collect();
     let mut lost = Vec::new();
     for k in 0..4 * effort.random {
         let inside = lost.len() < effort.random && k < 3 * effort.random;
