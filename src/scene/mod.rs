@@ -16,6 +16,8 @@
 
 mod choice;
 #[cfg(test)]
+mod choice_tests;
+#[cfg(test)]
 mod conformance;
 pub mod drift;
 mod error;
