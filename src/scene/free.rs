@@ -22,6 +22,7 @@ pub static SCENE: Scene = Scene {
         &closed::Closed,
         &stepped::Split,
         &stepped::Gauss,
+        &stepped::Classical,
         &stepped::Adaptive8,
         &equations::Euler,
     ],

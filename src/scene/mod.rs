@@ -31,6 +31,7 @@ mod precise;
 pub mod speed;
 pub mod top;
 mod value;
+mod walk;
 mod yardstick;
 
 pub use choice::{Outcome, Refusal, Request, choose};
