@@ -28,6 +28,7 @@ mod precise;
 pub mod speed;
 pub mod top;
 mod value;
+pub mod wobble;
 mod yardstick;
 
 pub use choice::{Outcome, Refusal, Request, choose};
@@ -76,7 +77,7 @@ pub struct Quantity {
 }
 
 /// All scenes.
-pub static SCENES: &[&Scene] = &[&top::SCENE, &free::SCENE, &mercury::SCENE];
+pub static SCENES: &[&Scene] = &[&top::SCENE, &free::SCENE, &mercury::SCENE, &wobble::SCENE];
 
 /// The scene of this name.
 ///
