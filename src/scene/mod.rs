@@ -32,6 +32,7 @@ pub mod speed;
 pub mod top;
 mod value;
 mod walk;
+pub mod wobble;
 mod yardstick;
 
 pub use choice::{Outcome, Refusal, Request, choose};
@@ -80,7 +81,7 @@ pub struct Quantity {
 }
 
 /// All scenes.
-pub static SCENES: &[&Scene] = &[&top::SCENE, &free::SCENE, &mercury::SCENE];
+pub static SCENES: &[&Scene] = &[&top::SCENE, &free::SCENE, &mercury::SCENE, &wobble::SCENE];
 
 /// The scene of this name.
 ///
