@@ -17,6 +17,7 @@
 mod choice;
 #[cfg(test)]
 mod conformance;
+pub mod earth;
 mod error;
 mod flow;
 pub mod free;
@@ -77,7 +78,7 @@ pub struct Quantity {
 }
 
 /// All scenes.
-pub static SCENES: &[&Scene] = &[&top::SCENE, &free::SCENE, &mercury::SCENE, &wobble::SCENE];
+pub static SCENES: &[&Scene] = &[&top::SCENE, &free::SCENE, &earth::SCENE, &mercury::SCENE, &wobble::SCENE];
 
 /// The scene of this name.
 ///
