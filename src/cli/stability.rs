@@ -49,13 +49,13 @@ pub fn run(arguments: &Arguments) -> miette::Result<()> {
 
 fn summary(found: &Stability, times: bool) -> String {
     let mut text = report::stability::table(&found.cases);
-    let Counts { equations, formulas, at_random, losing, ill_conditioned, unstable, improved, mended, .. } =
+    let Counts { equations, formulas, at_random, losing, ill_conditioned, exact_numbers, unstable, mended, .. } =
         found.counts();
     text += &format!(
         "\n{formulas} formulas of {equations} equations: {losing} lose more than 10 bits somewhere in the declared \
-         ranges ({at_random} at one of the random states),\n{ill_conditioned} of them because the problem is \
-         ill-conditioned, {unstable} by their own fault; rewriting found a better form of {improved}, of {mended} one \
-         without that fault\n",
+         ranges ({at_random} at one of the random states)\n  {ill_conditioned} of them because the problem is \
+         ill-conditioned; rewriting found for {exact_numbers} a form that loses at most 10 bits of exact numbers\n  \
+         {unstable} by their own fault; rewriting mends {mended}\n",
     );
     if times {
         text += &format!("{:.1} s\n", found.micros as f64 / 1e6);

@@ -6,6 +6,7 @@ mod approximate;
 mod closed;
 mod equations;
 mod start;
+mod stepped;
 
 use super::Scene;
 
@@ -16,5 +17,13 @@ pub static SCENE: Scene = Scene {
     time: "s",
     parameters: start::PARAMETERS,
     quantities: start::QUANTITIES,
-    models: &[&approximate::Symmetric, &closed::Closed, &equations::Euler, &equations::Adaptive8],
+    models: &[
+        &approximate::Symmetric,
+        &closed::Closed,
+        &stepped::Split,
+        &stepped::Gauss,
+        &stepped::Classical,
+        &stepped::Adaptive8,
+        &equations::Euler,
+    ],
 };

@@ -16,7 +16,10 @@
 
 mod choice;
 #[cfg(test)]
+mod choice_tests;
+#[cfg(test)]
 mod conformance;
+pub mod drift;
 pub mod earth;
 mod error;
 mod flow;
@@ -29,6 +32,7 @@ mod precise;
 pub mod speed;
 pub mod top;
 mod value;
+mod walk;
 pub mod wobble;
 mod yardstick;
 

@@ -9,6 +9,7 @@ mod approximate;
 mod closed;
 mod equations;
 mod start;
+mod stepped;
 
 use super::Scene;
 use crate::integrator::System;
@@ -29,6 +30,9 @@ pub static SCENE: Scene = Scene {
         &equations::Reduced,
         &equations::Axis,
         &equations::Quaternion,
+        &stepped::Classical,
+        &stepped::Gauss,
+        &stepped::Adaptive8,
         &equations::Euler,
     ],
 };

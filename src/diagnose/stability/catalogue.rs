@@ -1,13 +1,14 @@
-//! The catalogue of hard cases: formulas of the bundled notes at the places where doubles lose their digits, with the stable
-//! forms that are known from the literature. Data: `notes/hard-cases.toml`, whose LaTeX is read with the declarations that
-//! are in force at the equation that it names.
+//! The catalogue of hard cases: formulas of the bundled notes at the places where doubles lose their digits, with the
+//! stable forms that are known from the literature. Data: `notes/hard-cases.toml`, whose LaTeX is read with the
+//! declarations that are in force at the equation that it names.
 
 use std::collections::BTreeMap;
 
 use serde::{Deserialize, Serialize};
 
-use crate::check::computed::{Computed, Variable, computed, computed_from, expressions};
-use crate::check::{Book, Random};
+use crate::check::computed::{Computed, Variable, components, computed, computed_from, expressions};
+use crate::check::{Book, Formula, Random};
+use crate::diagnose::mutants::{Reach, mutants};
 use crate::expr::{Deadline, Expr, Graph, Node, Tape};
 
 use super::meter::{Loss, Meter};
@@ -149,6 +150,14 @@ pub fn read(text: &str) -> Result<Vec<Case>, CaseError> {
     toml::from_str::<Cases>(text).map(|c| c.case).map_err(|e| CaseError::Toml(e.to_string()))
 }
 
+/// How the forms of a case are measured.
+struct Setting {
+    /// States that are known to be hard; the first is the case's own.
+    known: Vec<Vec<f64>>,
+    seed: u64,
+    times: bool,
+}
+
 /// A case ready to be measured: both forms in one graph.
 pub struct Ready<'c> {
     case: &'c Case,
@@ -204,13 +213,15 @@ impl<'c> Ready<'c> {
         let case = self.case;
         let mut random = Random::new(seed, &case.name);
         let state = self.hard_state();
+        let mut setting = Setting { known: vec![state.clone()], seed, times };
         let outputs = self.computed.outputs.clone();
-        let before = self.form(&case.formula, &outputs, &state, seed, times)?;
+        let before = self.form(&case.formula, &outputs, &setting)?;
+        setting.known.extend([before.found.worst.state.clone(), before.found.fault.state.clone()]);
         let after = match (self.stable.clone(), &case.stable) {
-            (Some(outputs), Some(latex)) => Some(self.other(latex, &outputs, &state, seed, times, &mut random)?),
+            (Some(outputs), Some(latex)) => Some(self.other(latex, &outputs, &setting, &mut random)?),
             _ => None,
         };
-        let rewritten = self.rewritten(&before, &state, seed, times, &mut random);
+        let rewritten = self.rewritten(&before, &setting, &mut random);
         Ok(Measured {
             name: case.name.clone(),
             notes: case.notes.clone(),
@@ -225,6 +236,28 @@ impl<'c> Ready<'c> {
         })
     }
 
+    /// The mutants of the stable form that make sense, and the LaTeX of those that are not told from the formula.
+    pub fn mutants(&mut self, book: &Book, seed: u64) -> (usize, Vec<String>) {
+        let Some(tree) = self.case.stable.as_deref().and_then(|s| Formula::new(s).tree.ok()) else {
+            return (0, Vec::new());
+        };
+        let Some((index, _)) = book.find(&self.case.equation) else { return (0, Vec::new()) };
+        let (mut total, mut survivors) = (0, Vec::new());
+        for mutant in mutants(&tree, &book.entries[index].scope, Reach::MUTANTS) {
+            let Ok(outputs) = components(&mut self.computed.world, book, index, &mutant.tree) else { continue };
+            let all: Vec<Expr> = self.computed.outputs.iter().chain(&outputs).copied().collect();
+            let variables = self.computed.variables(&all);
+            let latex = crate::latex::to_latex(&mutant.tree);
+            let random = &mut Random::new(seed, &latex);
+            let graph = &mut self.computed.world.graph;
+            total += 1;
+            if same(graph, &self.computed.outputs, &outputs, &variables, random) != Sameness::Different {
+                survivors.push(latex);
+            }
+        }
+        (total, survivors)
+    }
+
     /// The values of the case's hard state; of symbols that it leaves out, the middle of their ranges.
     fn hard_state(&self) -> Vec<f64> {
         let named =
@@ -232,15 +265,17 @@ impl<'c> Ready<'c> {
         self.variables.iter().map(|v| named(v).unwrap_or((v.range[0] + v.range[1]) / 2.0)).collect()
     }
 
-    fn form(&self, latex: &str, outputs: &[Expr], state: &[f64], seed: u64, times: bool) -> Result<Form, CaseError> {
+    fn form(&self, latex: &str, outputs: &[Expr], setting: &Setting) -> Result<Form, CaseError> {
         let undefined = || CaseError::Undefined(self.case.name.clone(), latex.to_owned());
-        let graph = &self.computed.world.graph;
-        // Both forms are measured at the same random states.
-        let mut random = Random::new(seed, &self.case.name);
-        let found = search(graph, outputs, &self.computed.positive, &self.variables, EFFORT, &mut random);
-        let mut meter = Meter::new(graph, outputs, &self.computed.positive, &self.variables);
-        let at = meter.loss(state).ok_or_else(undefined)?;
-        let nanoseconds = times.then(|| nanoseconds(meter.tape(), &[self.inputs(meter.tape(), state)])).flatten();
+        let (graph, positive) = (&self.computed.world.graph, &self.computed.positive);
+        // All forms are measured at the same random states.
+        let mut random = Random::new(setting.seed, &self.case.name);
+        let found = search(graph, outputs, positive, &self.variables, &setting.known, EFFORT, &mut random);
+        let mut meter = Meter::new(graph, outputs, positive, &self.variables);
+        let hard = setting.known.first().ok_or_else(undefined)?;
+        let at = meter.loss(hard).ok_or_else(undefined)?;
+        let nanoseconds =
+            setting.times.then(|| nanoseconds(meter.tape(), &[self.inputs(meter.tape(), hard)])).flatten();
         Ok(Form { latex: latex.to_owned(), found: found.ok_or_else(undefined)?, at, nanoseconds })
     }
 
@@ -252,28 +287,19 @@ impl<'c> Ready<'c> {
         &mut self,
         latex: &str,
         outputs: &[Expr],
-        state: &[f64],
-        seed: u64,
-        times: bool,
+        setting: &Setting,
         random: &mut Random,
     ) -> Result<Other, CaseError> {
         let graph = &mut self.computed.world.graph;
         let sameness = same(graph, &self.computed.outputs, outputs, &self.variables, random);
-        Ok(Other { sameness, form: self.form(latex, outputs, state, seed, times)? })
+        Ok(Other { sameness, form: self.form(latex, outputs, setting)? })
     }
 
     /// The form that rewriting finds for the hardest states, where it is the same formula and loses less.
-    fn rewritten(
-        &mut self,
-        before: &Form,
-        state: &[f64],
-        seed: u64,
-        times: bool,
-        random: &mut Random,
-    ) -> Option<Other> {
+    fn rewritten(&mut self, before: &Form, setting: &Setting, random: &mut Random) -> Option<Other> {
         let [output] = self.computed.outputs[..] else { return None };
         let space = super::space::Space::new(&self.computed.world.graph, &[output], &self.variables);
-        let mut states = vec![state.to_vec(), before.found.worst.state.clone(), before.found.fault.state.clone()];
+        let mut states = setting.known.clone();
         let mut meter = Meter::new(&self.computed.world.graph, &[output], &self.computed.positive, &self.variables);
         for _ in 0..20 * TEACHERS {
             let state = space.inside(random);
@@ -283,7 +309,7 @@ impl<'c> Ready<'c> {
         }
         let new = propose(&mut self.computed.world.graph, output, &self.variables, &states)?;
         let latex = to_latex(&self.computed.world, new)?;
-        let other = self.other(&latex, &[new], state, seed, times, random).ok()?;
+        let other = self.other(&latex, &[new], setting, random).ok()?;
         let (old, new) = (&before.found, &other.form.found);
         let gained =
             [before.at.lost - other.form.at.lost, old.mean - new.mean, old.fault.loss.fault() - new.fault.loss.fault()];
@@ -327,57 +353,4 @@ fn is_same(
 /// A name without the braces and blanks that LaTeX may have or not.
 fn plain(name: &str) -> String {
     name.chars().filter(|c| !matches!(c, '{' | '}' | ' ')).collect()
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn tmp_print() {
-        for case in bundled().unwrap() {
-            let path = format!("{}/notes/{}.md", env!("CARGO_MANIFEST_DIR"), case.notes);
-            let text = std::fs::read_to_string(&path).unwrap();
-            let book = Book::new(&crate::document::parse(std::path::Path::new(&path), &text));
-            let ready = match Ready::new(&case, &book, 1) {
-                Ok(r) => r,
-                Err(e) => {
-                    println!("{e}");
-                    continue;
-                }
-            };
-            let printed = ready.printed == case.printed;
-            let begin = std::time::Instant::now();
-            match ready.measured(1, true) {
-                Err(e) => println!("{e}"),
-                Ok(m) => {
-                    let f = |f: &Form| {
-                        format!(
-                            "mean {:.1} worst {:.1} (κ {:.1}) fault {:.1} at {:.1} κ {:.1} {:.0} ns",
-                            f.found.mean,
-                            f.found.worst.loss.lost,
-                            f.found.worst.loss.condition,
-                            f.found.fault.loss.fault(),
-                            f.at.lost,
-                            f.at.condition,
-                            f.nanoseconds.unwrap()
-                        )
-                    };
-                    println!(
-                        "{}{} {:?}\n   {}",
-                        m.name,
-                        if printed { "" } else { " PRINTED?" },
-                        begin.elapsed(),
-                        f(&m.before)
-                    );
-                    if let Some(a) = &m.after {
-                        println!("   {} {:?}", f(&a.form), a.sameness);
-                    }
-                    if let Some(a) = &m.rewritten {
-                        println!("   R {} {:?} {}", f(&a.form), a.sameness, a.form.latex);
-                    }
-                }
-            }
-        }
-    }
 }

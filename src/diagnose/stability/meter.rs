@@ -1,13 +1,15 @@
 //! What a formula loses at a state, and how much of that is the problem's own.
 //!
-//! The state's values are doubles and taken as exact. *Bits lost* are log₂ of the relative error of the formula in doubles in
-//! units of 2^-53, between 0 and 53; a formula of several components is measured by the largest of them. The *condition* is log₂
-//! of κ = Σ |xᵢ ∂f/∂xᵢ| / |f|, the relative change of the exact value for relative changes of its variables
-//! (Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd ed. 2002, section 1.6): so many bits are lost by
-//! whoever knows the variables to 53 bits, in whatever way they compute. What is lost beyond is the formula's fault.
+//! The state's values are doubles and taken as exact. *Bits lost* are log₂ of the relative error of the formula in
+//! doubles in units of 2^-53, between 0 and 53; a formula of several components is measured by the largest of them.
+//! The *condition* is log₂ of κ = Σ |xᵢ ∂f/∂xᵢ| / |f|, the relative change of the exact value for relative changes of
+//! its variables (Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd ed. 2002, section 1.6): so many bits
+//! are lost by whoever knows the variables to 53 bits, in whatever way they compute. What is lost beyond is the
+//! formula's fault.
 //!
-//! A loss is told only where it is certain: the exact value's own error bound is a thousandth of the error that is measured. Where the exact value may be zero there is no relative
-//! error, and no loss is told; nor where it lies beyond the range of doubles, which is no matter of digits.
+//! A loss is told only where it is certain: the exact value's own error bound is a thousandth of the error that is
+//! measured. Where the exact value may be zero there is no relative error, and no loss is told; nor where it lies
+//! beyond the range of doubles, which is no matter of digits.
 
 use serde::Serialize;
 
@@ -30,6 +32,18 @@ const MORE_BITS: u32 = 320;
 
 /// The number of derivatives that are taken at once.
 const DIRECTIONS: usize = 8;
+
+/// The bits beyond the condition from which on the condition is looked at more closely.
+const DOUBTFUL: f64 = 4.0;
+
+/// What derivatives are taken in.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Slopes {
+    /// Doubles.
+    Quick,
+    /// Double-double.
+    Precise,
+}
 
 /// What a formula loses at a state, in bits.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
@@ -74,8 +88,8 @@ fn at(state: &[f64], places: &[usize]) -> Vec<f64> {
 }
 
 impl Meter {
-    /// A meter of a formula by its components. States give values to `variables`, which all symbols of the formula are among,
-    /// and are allowed where what is `positive` is.
+    /// A meter of a formula by its components. States give values to `variables`, which all symbols of the formula
+    /// are among, and are allowed where what is `positive` is.
     pub fn new(graph: &Graph, outputs: &[Expr], positive: &[Expr], variables: &[Variable]) -> Self {
         let tape = Tape::compile(graph, outputs);
         let positive = Tape::compile(graph, positive);
@@ -137,11 +151,14 @@ impl Meter {
     /// The bits lost and the condition, where both are certain.
     pub fn loss(&mut self, state: &[f64]) -> Option<Loss> {
         let lost = self.lost(state)?;
-        Some(Loss { lost, condition: self.condition(state) })
+        let quick = Loss { lost, condition: self.condition(state, Slopes::Quick) };
+        // Slopes in doubles lose digits as well, and a sign of what should not vanish is 0 in them.
+        let doubtful = quick.fault() > DOUBTFUL;
+        Some(if doubtful { Loss { lost, condition: self.condition(state, Slopes::Precise) } } else { quick })
     }
 
     /// log₂ of the condition number at a state, not below 0 nor above 53; 53 where a derivative is not finite.
-    pub fn condition(&mut self, state: &[f64]) -> f64 {
+    fn condition(&mut self, state: &[f64], slopes: Slopes) -> f64 {
         let inputs = at(state, &self.places);
         let exact: Vec<Df64> = inputs.iter().map(|x| Df64::from(*x)).collect();
         if self.is_at_border(&inputs, &exact) {
@@ -149,16 +166,14 @@ impl Meter {
         }
         let values = self.tape.eval(&exact, &(), &mut self.fine);
         let size = values.iter().map(|x| x.to_f64().abs()).fold(0.0, f64::max);
-        let mut sum = self.quick_slopes(&inputs);
-        if !sum.is_finite() {
-            sum = self.precise_slopes(&exact);
-        }
+        let quick = Some(self.quick_slopes(&inputs)).filter(|sum| slopes == Slopes::Quick && sum.is_finite());
+        let sum = quick.unwrap_or_else(|| self.precise_slopes(&exact));
         let condition = (sum / size).log2();
         if condition.is_nan() { BITS } else { condition.clamp(0.0, BITS) }
     }
 
-    /// Whether the formula has no value in doubles, nor exactly where a variable moves by its last bit: no derivative tells how
-    /// much is lost at the border of where a formula is defined.
+    /// Whether the formula has no value in doubles, nor exactly where a variable moves by its last bit: no derivative
+    /// tells how much is lost at the border of where a formula is defined.
     fn is_at_border(&mut self, inputs: &[f64], exact: &[Df64]) -> bool {
         if self.tape.eval(inputs, &(), &mut self.quick).iter().all(|x| x.is_finite()) {
             return false;
@@ -229,4 +244,67 @@ pub(super) fn certain<N: Real>(rough: &[f64], fine: &[Tracked<N>]) -> Option<f64
     let error = largest(rough.iter().zip(fine).map(|(r, f)| error_log2(*r, f.value())));
     let known = bound <= MARGIN + error.min(size).max(size - BITS);
     (known && size.abs() < REACH).then(|| (BITS + error - size).clamp(0.0, BITS))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::expr::Func;
+
+    /// What a function of x loses at x.
+    fn loss(build: impl Fn(&mut Graph, Expr) -> Expr, x: f64) -> Option<Loss> {
+        let mut graph = Graph::new();
+        let symbol = graph.symbol("x");
+        let e = graph.sym(symbol);
+        let e = build(&mut graph, e);
+        let variables = [Variable { symbol, tex: "x".into(), range: [-10.0, 10.0], integer: false }];
+        Meter::new(&graph, &[e], &[], &variables).loss(&[x])
+    }
+
+    #[test]
+    fn a_fault_is_told_from_an_ill_conditioned_problem() {
+        // 1 - cos x near 0: the condition is 2, whatever is lost.
+        let cosine = |g: &mut Graph, x: Expr| {
+            let (one, cos) = (g.int(1), g.call(Func::Cos, x));
+            g.sub(one, cos)
+        };
+        let fault = loss(cosine, 1e-6).unwrap();
+        assert!((fault.condition - 1.0).abs() < 1e-3 && fault.lost > 30.0, "{fault:?}");
+        // sin x near π: x is a double, and the sine right to the last bit; but the problem is ill-conditioned.
+        let ill = loss(|g, x| g.call(Func::Sin, x), std::f64::consts::PI).unwrap();
+        assert!(ill.lost < 1.0 && ill.condition > 50.0, "{ill:?}");
+        // cos x - 0.75, which is near its zero, loses what the condition accounts for.
+        let shifted = |g: &mut Graph, x: Expr| {
+            let (cos, c) = (g.call(Func::Cos, x), g.ratio(3, 4));
+            g.sub(cos, c)
+        };
+        let both = loss(shifted, 0.75_f64.acos()).unwrap();
+        assert!(both.lost > 40.0 && both.fault() < 4.0, "{both:?}");
+    }
+
+    #[test]
+    fn an_exact_zero_has_no_relative_error() {
+        // x - 2 at 2 is 0 in doubles and exactly; x² - 2 at the double next to √2 is not.
+        let less = |n: i64| {
+            move |g: &mut Graph, x: Expr| {
+                let (x, two) = (g.powi(x, n as i32), g.int(2));
+                g.sub(x, two)
+            }
+        };
+        assert_eq!(loss(less(1), 2.0), None);
+        assert!(loss(less(2), std::f64::consts::SQRT_2).unwrap().lost > 30.0);
+    }
+
+    #[test]
+    fn the_border_of_the_domain_is_no_fault() {
+        // √(x² - 1/9) just above 1/3: whether doubles give it a value is chance.
+        let root = |g: &mut Graph, x: Expr| {
+            let (third, square) = (g.ratio(1, 9), g.powi(x, 2));
+            let difference = g.sub(square, third);
+            g.sqrt(difference)
+        };
+        let above = f64::from_bits((1.0_f64 / 3.0).to_bits() + 1);
+        let loss = loss(root, above).unwrap();
+        assert!(loss.fault() < 4.0, "{loss:?}");
+    }
 }

@@ -1,5 +1,5 @@
-//! Stable forms found by rewriting: all forms that the identities lead to, in an e-graph, and of these the one that loses
-//! fewest bits at given states.
+//! Stable forms found by rewriting: all forms that the identities lead to, in an e-graph, and of these the one that
+//! loses fewest bits at given states.
 
 use std::sync::OnceLock;
 use std::time::Duration;
@@ -24,8 +24,8 @@ const NODES: usize = 6_000;
 /// What ends a run is its size, never the clock: the same formula has the same forms on every machine.
 const FOREVER: Duration = Duration::from_secs(3600);
 
-/// The form of an expression that loses fewest bits at these states; `None` where none is better than the expression itself, as
-/// far as was searched, or it is too large.
+/// The form of an expression that loses fewest bits at these states; `None` where none is better than the expression
+/// itself, as far as was searched, or it is too large.
 pub fn propose(graph: &mut Graph, e: Expr, variables: &[Variable], states: &[Vec<f64>]) -> Option<Expr> {
     // A panic within egg costs a proposal, and no more.
     caught(|| search(graph, e, variables, states)).ok().flatten()
@@ -86,7 +86,7 @@ mod tests {
         });
         let effort = searching::Effort { random: 32, steps: 300 };
         let run = |graph: &Graph, e: Expr| {
-            searching::search(graph, &[e], &[], &variables, effort, &mut Random::new(1, "test")).unwrap()
+            searching::search(graph, &[e], &[], &variables, &[], effort, &mut Random::new(1, "test")).unwrap()
         };
         let found = run(&graph, e);
         let new = propose(&mut graph, e, &variables, &[found.worst.state, found.fault.state.clone()]).unwrap();
@@ -126,7 +126,7 @@ mod tests {
         let e = graph.mul(square, two);
         let variables = [Variable { symbol: x, tex: "x".into(), range: [0.5, 2.0], integer: false }];
         let effort = searching::Effort { random: 32, steps: 200 };
-        let found = searching::search(&graph, &[e], &[], &variables, effort, &mut Random::new(1, "test")).unwrap();
+        let found = searching::search(&graph, &[e], &[], &variables, &[], effort, &mut Random::new(1, "test")).unwrap();
         assert!(found.fault.loss.fault() < 2.0, "{found:?}");
     }
 }

@@ -1,6 +1,8 @@
-//! Whether two forms are the same formula: exactly, at random points of the prime field, or in values at random states.
+//! Whether two forms are the same formula: exactly, at random points of the prime field, or in values at random
+//! states.
 //!
-//! Nothing but the forms decides: no premise is used. Two forms are called different only where that is certain.
+//! Nothing but the forms decides: no premise is used. Two forms are called different only where that is certain: at
+//! some state both have values that differ, or one has no value wherever the other has one.
 
 use serde::Serialize;
 
@@ -65,7 +67,8 @@ pub fn same(graph: &mut Graph, a: &[Expr], b: &[Expr], variables: &[Variable], r
     in_field(graph, &residuals, random).unwrap_or_else(|| in_values(graph, a, b, variables, random))
 }
 
-/// The verdict of the field, where it has one: where roots are involved, only that the forms are the same, with all signs.
+/// The verdict of the field, where it has one: where roots are involved, only that the forms are the same, with all
+/// signs.
 fn in_field(graph: &Graph, residuals: &[Expr], random: &mut Random) -> Option<Sameness> {
     let field = Field::new(graph, residuals);
     if !field.meaningless().is_empty() || field.roots() > MOST_ROOTS {
@@ -112,12 +115,13 @@ fn in_values(graph: &Graph, a: &[Expr], b: &[Expr], variables: &[Variable], rand
     let tape = Tape::compile(graph, &all);
     let places = places(&tape, variables);
     let space = Space::new(graph, &all, variables);
-    let (mut bits, mut states) = (f64::INFINITY, 0);
+    let (mut bits, mut states, mut apart) = (f64::INFINITY, 0, 0);
     let mut work = Workspace::new();
     for _ in 0..STATES {
         let state = space.inside(random);
         let inputs: Vec<_> = places.iter().map(|p| Tracked::exact(Df64::from(state[*p]))).collect();
         let values = tape.eval(&inputs, &(), &mut work);
+        apart += usize::from(values.chunks(2).any(|pair| pair[0].is_finite() != pair[1].is_finite()));
         let mut agreed = f64::INFINITY;
         for pair in values.chunks(2) {
             if !pair[0].is_finite() && !pair[1].is_finite() {
@@ -141,6 +145,11 @@ fn in_values(graph: &Graph, a: &[Expr], b: &[Expr], variables: &[Variable], rand
             bits = bits.min(agreed);
             states += 1;
         }
+    }
+    // A form may be undefined at some states; where it is nowhere when the other one is defined, it is another
+    // formula.
+    if states == 0 && apart >= LEAST_STATES {
+        return Sameness::Different;
     }
     if states < LEAST_STATES {
         return Sameness::Unknown;

@@ -1,7 +1,8 @@
-//! The states at which a formula loses most, searched for: random states, states near the edges, and from the worst of
-//! them on by steps that are kept where they lose more.
+//! The states at which a formula loses most, searched for: random states, states near the edges, and from the worst
+//! of them on by steps that are kept where they lose more.
 //!
-//! Promises: the same seed and name give the same states; what is told of a state is certain ([`Meter::lost`]); the number of evaluations is bounded. Not promised: that no state loses more.
+//! Promises: the same seed and name give the same states; what is told of a state is certain ([`Meter::lost`]); the
+//! number of evaluations is bounded. Not promised: that no state loses more.
 
 use serde::Serialize;
 
@@ -64,18 +65,21 @@ impl Goal {
     }
 }
 
-/// Searches the states of a formula. `None` where nothing is certain at any random state: it is undefined, or vanishes.
+/// Searches the states of a formula. `None` where nothing is certain at any random state: it is undefined, or
+/// vanishes. `known` are states from which steps are taken, too: another form of a formula is to be good where that
+/// one was bad.
 pub fn search(
     graph: &Graph,
     outputs: &[Expr],
     positive: &[Expr],
     variables: &[Variable],
+    known: &[Vec<f64>],
     effort: Effort,
     random: &mut Random,
 ) -> Option<Found> {
     let mut meter = Meter::new(graph, outputs, positive, variables);
     let mut space = Space::new(graph, outputs, variables);
-    let mut begin: Vec<Hard> = Vec::new();
+    let mut begin: Vec<Hard> = known.iter().filter_map(|state| measured(&mut meter, state.clone())).collect();
     let mut lost = Vec::new();
     for k in 0..4 * effort.random {
         let inside = lost.len() < effort.random && k < 3 * effort.random;

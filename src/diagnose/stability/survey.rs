@@ -1,4 +1,5 @@
-//! Every formula of a document: where it loses its digits, whether that is the problem's fault, and what rewriting can do.
+//! Every formula of a document: where it loses its digits, whether that is the problem's fault, and what rewriting
+//! can do.
 
 use rayon::prelude::*;
 use serde::Serialize;
@@ -52,7 +53,7 @@ pub struct Item {
     pub symbols: Vec<String>,
     /// What was found.
     pub found: Found,
-    /// A form that loses less beyond the condition.
+    /// A form that loses less.
     pub proposal: Option<Proposal>,
 }
 
@@ -99,11 +100,12 @@ pub struct Counts {
     pub losing: usize,
     /// Of these, those that lose no more than that beyond the condition: the problem is ill-conditioned.
     pub ill_conditioned: usize,
+    /// Of these, those for which rewriting found a form that loses no more than 10 bits anywhere, from numbers that
+    /// are taken as exact.
+    pub exact_numbers: usize,
     /// The others: the formula is unstable.
     pub unstable: usize,
-    /// Of these, those for which rewriting found a form that loses less.
-    pub improved: usize,
-    /// Of these, those whose new form loses no more than 10 bits beyond the condition.
+    /// Of these, those for which rewriting found a form that loses no more than 10 bits beyond the condition.
     pub mended: usize,
 }
 
@@ -113,6 +115,7 @@ impl Survey {
         let count = |f: &dyn Fn(&Item) -> bool| self.items.iter().filter(|i| f(i)).count();
         let labels: std::collections::BTreeSet<&str> = self.items.iter().map(|i| i.label.as_str()).collect();
         let mended = |i: &Item| i.proposal.as_ref().is_some_and(|p| p.found.fault.loss.fault() <= MANY);
+        let saved = |i: &Item| i.proposal.as_ref().is_some_and(|p| p.found.worst.loss.lost <= MANY);
         let (losing, unstable) = (count(&Item::loses), count(&Item::is_at_fault));
         Counts {
             equations: self.equations,
@@ -121,8 +124,8 @@ impl Survey {
             at_random: count(&Item::loses_at_random),
             losing,
             ill_conditioned: losing - unstable,
+            exact_numbers: count(&|i| i.loses() && !i.is_at_fault() && saved(i)),
             unstable,
-            improved: count(&|i| i.is_at_fault() && i.proposal.is_some()),
             mended: count(&|i| i.is_at_fault() && mended(i)),
         }
     }
@@ -139,7 +142,7 @@ impl Counts {
             losing: self.losing + other.losing,
             ill_conditioned: self.ill_conditioned + other.ill_conditioned,
             unstable: self.unstable + other.unstable,
-            improved: self.improved + other.improved,
+            exact_numbers: self.exact_numbers + other.exact_numbers,
             mended: self.mended + other.mended,
         }
     }
@@ -169,9 +172,9 @@ fn of_equation(book: &Book, index: usize, seed: u64) -> Vec<Item> {
         let variables = formula.variables(&formula.outputs);
         let effort = effort(&formula.world.graph, &formula.outputs);
         let (graph, outputs) = (&formula.world.graph, formula.outputs.clone());
-        let found = search(graph, &outputs, &formula.positive, &variables, effort, &mut random)?;
-        let unstable = found.fault.loss.fault() > MANY;
-        let proposal = unstable.then(|| improved(&mut formula, &variables, &found, effort, &mut random)).flatten();
+        let found = search(graph, &outputs, &formula.positive, &variables, &[], effort, &mut random)?;
+        let loses = found.worst.loss.lost > MANY;
+        let proposal = loses.then(|| improved(&mut formula, &variables, &found, effort, &mut random)).flatten();
         Some(Item {
             label: equation.label.clone(),
             line: equation.line,
@@ -192,7 +195,7 @@ fn effort(graph: &Graph, outputs: &[Expr]) -> Effort {
     Effort { random: RANDOM.min(steps), steps }
 }
 
-/// A form of a formula at fault that loses less, by rewriting.
+/// A form of a formula that loses less, by rewriting.
 fn improved(
     formula: &mut Computed,
     variables: &[Variable],
@@ -204,8 +207,13 @@ fn improved(
     let states = teachers(formula, variables, before, random);
     let new = propose(&mut formula.world.graph, output, variables, &states)?;
     let sameness = same(&mut formula.world.graph, &[output], &[new], variables, random);
-    let found = search(&formula.world.graph, &[new], &formula.positive, variables, effort, random)?;
-    let better = found.fault.loss.fault() < before.fault.loss.fault() - 1.0 && found.mean < before.mean + 1.0;
+    let found = search(&formula.world.graph, &[new], &formula.positive, variables, &states, effort, random)?;
+    let gains = [
+        before.fault.loss.fault() - found.fault.loss.fault(),
+        before.worst.loss.lost - found.worst.loss.lost,
+        before.mean - found.mean,
+    ];
+    let better = gains.iter().any(|g| *g > 1.0) && gains.iter().all(|g| *g > -1.0);
     let latex = to_latex(&formula.world, new);
     (sameness.holds() && better).then_some(Proposal { latex, sameness, found })
 }

@@ -4,14 +4,15 @@ use serde::Serialize;
 
 use super::super::math::Renderer;
 use super::super::text::number;
-use super::super::{ReportError, view_charts};
-use super::{Measured, chart};
+use super::super::view_charts;
+use super::{Measured, Speed, chart};
 use crate::scene::speed::Pick;
 
 #[derive(Serialize)]
 pub(super) struct Page {
     version: &'static str,
     scenes: Vec<Section>,
+    drifts: Vec<view_charts::View>,
 }
 
 #[derive(Serialize)]
@@ -51,10 +52,12 @@ struct Row {
     with_choice: String,
 }
 
-pub(super) fn page(scenes: &[Measured]) -> Result<Page, ReportError> {
+pub(super) fn page(speed: &Speed) -> Page {
     let renderer = Renderer::new();
-    let scenes = scenes.iter().map(|m| section(m, &renderer)).collect();
-    Ok(Page { version: env!("CARGO_PKG_VERSION"), scenes })
+    let scenes = speed.scenes.iter().map(|m| section(m, &renderer)).collect();
+    let drifts = chart::drifts(&speed.drifts).into_iter().filter_map(Result::ok);
+    let drifts = drifts.map(|c| view_charts::view(&c, &renderer)).collect();
+    Page { version: env!("CARGO_PKG_VERSION"), scenes, drifts }
 }
 
 fn section(measured: &Measured, renderer: &Renderer) -> Section {
@@ -67,7 +70,7 @@ fn section(measured: &Measured, renderer: &Renderer) -> Section {
         about: scene.about,
         quantities: names.collect::<Vec<_>>().join(", "),
         parameters: values
-            .map(|(p, v)| Setting { name: p.name, value: number(*v, 6), unit: p.unit, about: p.about })
+            .map(|(p, v)| Setting { name: p.name, value: short(*v), unit: p.unit, about: p.about })
             .collect(),
         models: scene
             .models
@@ -78,6 +81,15 @@ fn section(measured: &Measured, renderer: &Renderer) -> Section {
         trouble: chart.as_ref().err().map(ToString::to_string),
         chart: chart.ok().map(|c| view_charts::view(&c, renderer)),
         picks: measured.picks.iter().map(row).collect(),
+    }
+}
+
+/// A number without the zeros at its end.
+fn short(value: f64) -> String {
+    let text = number(value, 6);
+    match text.contains('.') && !text.contains(['e', '⁰']) {
+        true => text.trim_end_matches('0').trim_end_matches('.').to_owned(),
+        false => text,
     }
 }
 

@@ -1,5 +1,8 @@
-//! `stability.html` and `stability.json`: where the formulas of notes lose their digits in doubles, and forms that do not.
+//! `stability.html` and `stability.json`: where the formulas of notes lose their digits in doubles, and forms that do
+//! not.
 
+#[cfg(test)]
+mod tests;
 mod view;
 
 use std::path::Path;
@@ -103,7 +106,7 @@ pub fn write(stability: &Stability, out: &Path, options: Options) -> Result<Writ
 /// The hard cases as a table in plain text, without times: one line for each.
 pub fn table(cases: &[Measured]) -> String {
     let mut text = format!(
-        "{:<58} {:>9}  {:>13}  {:>13}  {:>13}  same\n",
+        "{:<66} {:>9}  {:>13}  {:>13}  {:>13}  same\n",
         "hard case", "condition", "at the state", "mean", "worst fault"
     );
     let pair = |before: f64, after: Option<f64>| match after {
@@ -113,7 +116,7 @@ pub fn table(cases: &[Measured]) -> String {
     for case in cases {
         let after = case.after.as_ref().map(|a| &a.form);
         text += &format!(
-            "{:<58} {:>9.1}  {:>13}  {:>13}  {:>13}  {}\n",
+            "{:<66} {:>9.1}  {:>13}  {:>13}  {:>13}  {}\n",
             format!("{} ({})", case.name, case.equation),
             case.before.at.condition,
             pair(case.before.at.lost, after.map(|f| f.at.lost)),

@@ -150,8 +150,9 @@ fn formula(item: &Item, hard: &Hard, renderer: &Renderer) -> Formula {
         proposal_html: proposal.and_then(|p| p.latex.as_deref()).map(shown),
         proposal: proposal.map(|p| {
             let found = &p.found;
-            let (mean, fault) = (bits(found.mean), bits(found.fault.loss.fault()));
-            format!("mean {mean}, beyond the condition {fault} at worst; the same {}", sameness(p.sameness))
+            let (mean, worst) = (bits(found.mean), bits(found.worst.loss.lost));
+            let fault = bits(found.fault.loss.fault());
+            format!("mean {mean}, worst {worst}, beyond the condition {fault}; the same {}", sameness(p.sameness))
         }),
     }
 }
