@@ -20,6 +20,7 @@ mod choice_tests;
 #[cfg(test)]
 mod conformance;
 pub mod drift;
+pub mod earth;
 mod error;
 mod flow;
 pub mod free;
@@ -81,7 +82,7 @@ pub struct Quantity {
 }
 
 /// All scenes.
-pub static SCENES: &[&Scene] = &[&top::SCENE, &free::SCENE, &mercury::SCENE, &wobble::SCENE];
+pub static SCENES: &[&Scene] = &[&top::SCENE, &free::SCENE, &earth::SCENE, &mercury::SCENE, &wobble::SCENE];
 
 /// The scene of this name.
 ///
