@@ -14,10 +14,11 @@ const TIGHT: [f64; 3] = [1e-22, 1e-30, 1e-60];
 /// The errors for which the scene is asked what it takes.
 const ASKED: [f64; 5] = [1e-2, 1e-4, 1e-6, 1e-9, 1e-12];
 
-/// The span in s over which a scene's motion is followed, and the quantities: what its users would ask for.
+/// The span, in the scene's unit of time, over which a scene's motion is followed, and the quantities: what its users would ask for.
 fn span(scene: &Scene) -> (f64, &'static [&'static str]) {
     match scene.name {
         "top" => (1000.0, &["theta"]),
+        "free" => (1000.0, &["omega_1", "q_0"]),
         _ => (100.0, &[]),
     }
 }

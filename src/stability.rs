@@ -1,4 +1,5 @@
-//! Where the formulas of notes lose their digits: the survey of the documents, and the hard cases of the bundled notes.
+//! Where the formulas of notes lose their digits: the survey of the documents, and the hard cases of the bundled
+//! notes.
 
 use std::time::Instant;
 
@@ -21,7 +22,8 @@ pub struct Request {
     pub times: bool,
 }
 
-/// Surveys the documents and measures those of the bundled hard cases that they are the notes of. `done` is called after each equation.
+/// Surveys the documents and measures those of the bundled hard cases that they are the notes of. `done` is called
+/// after each equation.
 ///
 /// # Errors
 /// [`CaseError`]: the catalogue does not fit the notes.

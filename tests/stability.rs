@@ -1,5 +1,5 @@
-//! Every hard case of the catalogue by its name: the stable form is the same formula, it loses fewer bits, and its mutants are
-//! told from the formula. `cargo test --test stability Mercury` runs those whose names contain "Mercury".
+//! Every hard case of the catalogue by its name: the stable form is the same formula, it loses fewer bits, and its
+//! mutants are told from the formula. `cargo test --test stability Mercury` runs those whose names contain "Mercury".
 
 #![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
 

@@ -1,11 +1,11 @@
 //! The sides of equations as they are computed: what somebody who uses the notes puts numbers into.
 //!
 //! A formula is a side with at least one operation and one symbol: the right one, or the left one where the right one
-//! is a mere name or number. A side that is equal to 0 or constant is a relation between its symbols and not a number that
-//! is looked for, and an integral along the motion is no function of its symbols' values: neither is a formula here. An equation is taken as
-//! corrected. Its symbols are independent of each other, each in its declared range, as far as premises that say what is
-//! greater allow; premises that say what is equal are not used: a formula is asked for what it is, whatever its
-//! variables come from. Of a formula with free indices the first instance is taken.
+//! is a mere name or number. A side that is equal to 0 or constant is a relation between its symbols and not a number
+//! that is looked for, and an integral along the motion is no function of its symbols' values: neither is a formula
+//! here. An equation is taken as corrected. Its symbols are independent of each other, each in its declared range, as
+//! far as premises that say what is greater allow; premises that say what is equal are not used: a formula is asked
+//! for what it is, whatever its variables come from. Of a formula with free indices the first instance is taken.
 
 use std::collections::BTreeSet;
 

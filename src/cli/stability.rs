@@ -53,9 +53,9 @@ fn summary(found: &Stability, times: bool) -> String {
         found.counts();
     text += &format!(
         "\n{formulas} formulas of {equations} equations: {losing} lose more than 10 bits somewhere in the declared \
-         ranges ({at_random} at one of the random states),\n{ill_conditioned} of them because the problem is \
-         ill-conditioned ({exact_numbers} have a form that loses no more than 10 bits of numbers that are exact), {unstable} by their own fault \
-         (rewriting mends {mended})\n",
+         ranges ({at_random} at one of the random states)\n  {ill_conditioned} of them because the problem is \
+         ill-conditioned; rewriting found for {exact_numbers} a form that loses at most 10 bits of exact numbers\n  \
+         {unstable} by their own fault; rewriting mends {mended}\n",
     );
     if times {
         text += &format!("{:.1} s\n", found.micros as f64 / 1e6);

@@ -30,7 +30,7 @@ pub struct Request {
     pub parameters: Vec<f64>,
     /// The quantities, by position in [`Scene::quantities`].
     pub quantities: Vec<usize>,
-    /// The times in s, not negative and rising.
+    /// The times in the scene's unit, not negative and rising.
     pub times: Vec<f64>,
     /// The largest absolute error of a value, in the unit of its quantity.
     pub error: f64,

@@ -21,6 +21,7 @@ fn motions(scene: &Scene) -> Vec<Case> {
     match scene.name {
         "top" => cases.extend(top_motions()),
         "free" => cases.extend(free_motions()),
+        "wobble" => cases.extend(wobble_motions()),
         "mercury" => cases.extend(mercury_motions()),
         _ => {}
     }
@@ -62,6 +63,19 @@ fn free_motions() -> [Case; 9] {
         case("nearly equal moments", &[("A", 1.999_999_999)], 20.0),
         case("another order", &[("A", 3.0), ("B", 1.0), ("C", 2.0), ("omega_3", -0.6)], 20.0),
         case("yet another order", &[("A", 2.0), ("B", 3.5), ("C", 1.0), ("omega_2", -0.9)], 20.0),
+    ]
+}
+
+/// In units of Omega, with a deformation that is no small one.
+fn wobble_motions() -> [Case; 3] {
+    const A: (&str, f64) = ("Omega", 1.0);
+    const B: (&str, f64) = ("H", 0.1);
+    const C: (&str, f64) = ("alpha", 0.005);
+    const D: (&str, f64) = ("nu", -0.06);
+    [
+        case("wide wobble", &[A, B, C, D, ("J_0", 0.3), ("l_0", 1.0)], 300.0),
+        case("from no wobble", &[A, B, C, D, ("J_0", 0.0)], 300.0),
+        case("asymmetric", &[A, B, C, D, ("J_0", 0.2), ("asymmetry", 0.03), ("counter", 0.5)], 300.0),
     ]
 }
 

@@ -84,10 +84,10 @@ struct Course {
 const COURSES: [Course; 7] = [
     Course { scene: "free", method: "splitting 8, 16 steps a period", constants: &FREE, run: free_splitting },
     Course { scene: "free", method: "Gauss-Legendre 12, 12 steps a period", constants: &FREE, run: free_gauss },
-    Course { scene: "free", method: "Taylor series, tolerance 2^-54", constants: &FREE, run: free_taylor },
+    Course { scene: "free", method: "Taylor series, tolerance 2^-62", constants: &FREE, run: free_taylor },
     Course { scene: "free", method: "Dormand-Prince 8, 24 steps a period", constants: &FREE, run: free_runge_kutta },
     Course { scene: "top", method: "Gauss-Legendre 12, 16 steps a period", constants: &TOP, run: top_gauss },
-    Course { scene: "top", method: "Taylor series, tolerance 2^-54", constants: &TOP, run: top_taylor },
+    Course { scene: "top", method: "Taylor series, tolerance 2^-62", constants: &TOP, run: top_taylor },
     Course { scene: "top", method: "Dormand-Prince 8, 32 steps a period", constants: &TOP, run: top_runge_kutta },
 ];
 
@@ -107,7 +107,7 @@ fn drift(course: &Course, periods: f64, members: usize) -> Result<Vec<Drift>, Sc
     let records = records?;
     let seconds_per_period = begin.elapsed().as_secs_f64() / (periods * members as f64);
     let each = course.constants.iter().enumerate().map(|(k, (constant, _))| {
-        let points = together(&records, k);
+        let points = together(&records, k, periods);
         let exponent = exponent(&points);
         let (scene, method) = (course.scene, course.method.to_owned());
         Drift { scene, method, constant, points, exponent, seconds_per_period }
@@ -115,9 +115,10 @@ fn drift(course: &Course, periods: f64, members: usize) -> Result<Vec<Drift>, Sc
     Ok(each.collect())
 }
 
-/// The root mean square of a constant's error in each bin, over all records.
-fn together(records: &[Record], constant: usize) -> Vec<(f64, f64)> {
-    let bins = records.iter().map(|r| r.bins.len()).max().unwrap_or(0);
+/// The root mean square of a constant's error in each bin that is full, over all records.
+fn together(records: &[Record], constant: usize, periods: f64) -> Vec<(f64, f64)> {
+    let full = (periods.log10() * BINS + 1e-9).max(0.0) as usize;
+    let bins = records.iter().map(|r| r.bins.len()).max().unwrap_or(0).min(full);
     let point = |bin: usize| {
         let of = |r: &Record| r.bins.get(bin).map_or((0, 0.0), |(n, squares)| (*n, squares[constant]));
         let (count, sum) = records.iter().map(of).fold((0, 0.0), |(n, s), (m, t)| (n + m, s + t));
@@ -208,7 +209,8 @@ fn taylor(
     mut record: Record,
     periods: f64,
 ) -> Result<Record, SceneError> {
-    let method = Taylor { log2_tolerance: -54.0, max_steps: usize::MAX };
+    // Far below the rounding, so that the truncation has no say.
+    let method = Taylor { log2_tolerance: -62.0, max_steps: usize::MAX };
     let (end, mut y) = (periods * record.period, start.to_vec());
     method.integrate(&flow.series, parameters, (&0.0, start), &end, |step| {
         for (k, y) in y.iter_mut().enumerate() {
@@ -233,43 +235,48 @@ fn free_taylor(member: usize, periods: f64) -> Result<Record, SceneError> {
 /// The top: I_0 = 1, I_1 = 0.5, mgl = 1.
 const BODY: HeavyTop = HeavyTop { transverse: 1.0, axial: 0.5, torque: 1.0 };
 
-fn vertical(y: &[f64]) -> f64 {
-    TopState::from_vector(y).map_or(f64::NAN, |state| BODY.vertical_momentum(&state))
+/// The state is `[theta, phi', theta', psi']`: nothing depends on the other two angles, which grow without end.
+fn top_state(y: &[f64]) -> TopState {
+    let part = |k: usize| y.get(k).copied().unwrap_or(f64::NAN);
+    TopState { phi: 0.0, theta: part(0), psi: 0.0, phi_rate: part(1), theta_rate: part(2), psi_rate: part(3) }
 }
 
-fn energy(y: &[f64]) -> f64 {
-    TopState::from_vector(y).map_or(f64::NAN, |state| BODY.energy(&state))
-}
+const TOP: [Constant; 2] =
+    [("L_z", |y| BODY.vertical_momentum(&top_state(y))), ("energy", |y| BODY.energy(&top_state(y)))];
 
-/// The state is that of the top: three angles and their rates.
-const TOP: [Constant; 2] = [("L_z", vertical), ("energy", energy)];
+fn top_rates(_: &f64, y: &[f64], slope: &mut [f64]) {
+    let state = top_state(y);
+    let [phi, theta, psi] = BODY.accelerations(&state);
+    slope.copy_from_slice(&[state.theta_rate, phi, theta, psi]);
+}
 
 /// The top with a spin of 5 rad/s at rest in nutation, inclined a little differently for each member.
-fn top_start(member: usize) -> Result<([f64; 6], f64), SceneError> {
+fn top_start(member: usize) -> Result<([f64; 4], f64), SceneError> {
     let theta = std::f64::consts::FRAC_PI_3 + 1e-3 * member as f64;
     let nutation = BODY.nutation(theta, 0.0, 5.0).ok_or(IntegrationError::NotFinite { t: 0.0 })?;
-    Ok((TopState::turning(theta, 0.0, 5.0).to_vector(), nutation.period()))
+    let start = TopState::turning(theta, 0.0, 5.0);
+    Ok(([theta, start.phi_rate, start.theta_rate, start.psi_rate], nutation.period()))
 }
 
 fn top_gauss(member: usize, periods: f64) -> Result<Record, SceneError> {
     let (y, period) = top_start(member)?;
-    fixed(&mut GaussLegendre::new(6, &BODY, 6, &()), Record::new(&TOP, &y, period), &y, (16, periods))
+    fixed(&mut GaussLegendre::new(6, &top_rates, 4, &()), Record::new(&TOP, &y, period), &y, (16, periods))
 }
 
 fn top_runge_kutta(member: usize, periods: f64) -> Result<Record, SceneError> {
     let (y, period) = top_start(member)?;
-    let mut method = RungeKutta::new(&DORMAND_PRINCE_8, &BODY, 6, &());
+    let mut method = RungeKutta::new(&DORMAND_PRINCE_8, &top_rates, 4, &());
     fixed(&mut method, Record::new(&TOP, &y, period), &y, (32, periods))
 }
 
 fn top_taylor(member: usize, periods: f64) -> Result<Record, SceneError> {
     let (y, period) = top_start(member)?;
-    let flow = Flow::new(["f", "h", "s", "p", "q", "r"], |[_, theta, _, p, q, r]| {
+    let flow = Flow::new(["theta", "p", "q", "r"], |[theta, p, q, r]| {
         let (sin, cos) = theta.sin_cos();
         let (a, pull, two) = (theta.symbol("a"), theta.symbol("pull"), theta.int(2));
         let spin = a * (p * cos + r);
         let phi = q * (spin - two * p * cos) / sin;
-        [p, q, r, phi, sin * (p * p * cos - spin * p + pull), p * q * sin - phi * cos]
+        [q, phi, sin * (p * p * cos - spin * p + pull), p * q * sin - phi * cos]
     })?;
     let parameters = flow.parameters(&[("a", BODY.axial / BODY.transverse), ("pull", BODY.torque / BODY.transverse)]);
     taylor(&flow, &parameters, &y, Record::new(&TOP, &y, period), periods)

@@ -14,6 +14,7 @@ use super::Scene;
 pub static SCENE: Scene = Scene {
     name: "free",
     about: "the free body: principal moments A, B, C, no torque; its axes are the inertial ones at t = 0",
+    time: "s",
     parameters: start::PARAMETERS,
     quantities: start::QUANTITIES,
     models: &[
@@ -21,6 +22,7 @@ pub static SCENE: Scene = Scene {
         &closed::Closed,
         &stepped::Split,
         &stepped::Gauss,
+        &stepped::Classical,
         &stepped::Adaptive8,
         &equations::Euler,
     ],

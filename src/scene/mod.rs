@@ -31,6 +31,8 @@ mod precise;
 pub mod speed;
 pub mod top;
 mod value;
+mod walk;
+pub mod wobble;
 mod yardstick;
 
 pub use choice::{Outcome, Refusal, Request, choose};
@@ -44,6 +46,8 @@ pub struct Scene {
     pub name: &'static str,
     /// One line.
     pub about: &'static str,
+    /// The unit of the times: "s", or "yr" for the Julian year of 365.25 days.
+    pub time: &'static str,
     /// The parameters, those of the initial state included.
     pub parameters: &'static [Parameter],
     /// What may be asked for.
@@ -77,7 +81,7 @@ pub struct Quantity {
 }
 
 /// All scenes.
-pub static SCENES: &[&Scene] = &[&top::SCENE, &free::SCENE, &mercury::SCENE];
+pub static SCENES: &[&Scene] = &[&top::SCENE, &free::SCENE, &mercury::SCENE, &wobble::SCENE];
 
 /// The scene of this name.
 ///

@@ -1,6 +1,6 @@
-//! The catalogue of hard cases: formulas of the bundled notes at the places where doubles lose their digits, with the stable
-//! forms that are known from the literature. Data: `notes/hard-cases.toml`, whose LaTeX is read with the declarations that
-//! are in force at the equation that it names.
+//! The catalogue of hard cases: formulas of the bundled notes at the places where doubles lose their digits, with the
+//! stable forms that are known from the literature. Data: `notes/hard-cases.toml`, whose LaTeX is read with the
+//! declarations that are in force at the equation that it names.
 
 use std::collections::BTreeMap;
 

@@ -1,10 +1,10 @@
 //! The term of an e-graph that loses fewest bits, measured at given states.
 //!
-//! Each class of equal terms keeps the best term that has been found for it, with its values in doubles at the states, rounded
-//! as they are computed, and with the exact values. A term is made from an operation of the class and the best terms of the classes that it
-//! is applied to; it takes the place of the class's best where the mean of the bits that its doubles have lost is less,
-//! or as many are lost by a smaller term. That the best terms of parts make the best whole is not always so: rounding errors may cancel.
-//! So what is found is good, and not the best of all.
+//! Each class of equal terms keeps the best term that has been found for it, with its values in doubles at the
+//! states, rounded as they are computed, and with the exact values. A term is made from an operation of the class and
+//! the best terms of the classes that it is applied to; it takes the place of the class's best where the mean of the
+//! bits that its doubles have lost is less, or as many are lost by a smaller term. That the best terms of parts make
+//! the best whole is not always so: rounding errors may cancel. So what is found is good, and not the best of all.
 
 use std::collections::{HashMap, HashSet};
 

@@ -1,13 +1,15 @@
 //! What a formula loses at a state, and how much of that is the problem's own.
 //!
-//! The state's values are doubles and taken as exact. *Bits lost* are log₂ of the relative error of the formula in doubles in
-//! units of 2^-53, between 0 and 53; a formula of several components is measured by the largest of them. The *condition* is log₂
-//! of κ = Σ |xᵢ ∂f/∂xᵢ| / |f|, the relative change of the exact value for relative changes of its variables
-//! (Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd ed. 2002, section 1.6): so many bits are lost by
-//! whoever knows the variables to 53 bits, in whatever way they compute. What is lost beyond is the formula's fault.
+//! The state's values are doubles and taken as exact. *Bits lost* are log₂ of the relative error of the formula in
+//! doubles in units of 2^-53, between 0 and 53; a formula of several components is measured by the largest of them.
+//! The *condition* is log₂ of κ = Σ |xᵢ ∂f/∂xᵢ| / |f|, the relative change of the exact value for relative changes of
+//! its variables (Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd ed. 2002, section 1.6): so many bits
+//! are lost by whoever knows the variables to 53 bits, in whatever way they compute. What is lost beyond is the
+//! formula's fault.
 //!
-//! A loss is told only where it is certain: the exact value's own error bound is a thousandth of the error that is measured. Where the exact value may be zero there is no relative
-//! error, and no loss is told; nor where it lies beyond the range of doubles, which is no matter of digits.
+//! A loss is told only where it is certain: the exact value's own error bound is a thousandth of the error that is
+//! measured. Where the exact value may be zero there is no relative error, and no loss is told; nor where it lies
+//! beyond the range of doubles, which is no matter of digits.
 
 use serde::Serialize;
 
@@ -86,8 +88,8 @@ fn at(state: &[f64], places: &[usize]) -> Vec<f64> {
 }
 
 impl Meter {
-    /// A meter of a formula by its components. States give values to `variables`, which all symbols of the formula are among,
-    /// and are allowed where what is `positive` is.
+    /// A meter of a formula by its components. States give values to `variables`, which all symbols of the formula
+    /// are among, and are allowed where what is `positive` is.
     pub fn new(graph: &Graph, outputs: &[Expr], positive: &[Expr], variables: &[Variable]) -> Self {
         let tape = Tape::compile(graph, outputs);
         let positive = Tape::compile(graph, positive);
@@ -170,8 +172,8 @@ impl Meter {
         if condition.is_nan() { BITS } else { condition.clamp(0.0, BITS) }
     }
 
-    /// Whether the formula has no value in doubles, nor exactly where a variable moves by its last bit: no derivative tells how
-    /// much is lost at the border of where a formula is defined.
+    /// Whether the formula has no value in doubles, nor exactly where a variable moves by its last bit: no derivative
+    /// tells how much is lost at the border of where a formula is defined.
     fn is_at_border(&mut self, inputs: &[f64], exact: &[Df64]) -> bool {
         if self.tape.eval(inputs, &(), &mut self.quick).iter().all(|x| x.is_finite()) {
             return false;

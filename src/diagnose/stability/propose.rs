@@ -1,5 +1,5 @@
-//! Stable forms found by rewriting: all forms that the identities lead to, in an e-graph, and of these the one that loses
-//! fewest bits at given states.
+//! Stable forms found by rewriting: all forms that the identities lead to, in an e-graph, and of these the one that
+//! loses fewest bits at given states.
 
 use std::sync::OnceLock;
 use std::time::Duration;
@@ -24,8 +24,8 @@ const NODES: usize = 6_000;
 /// What ends a run is its size, never the clock: the same formula has the same forms on every machine.
 const FOREVER: Duration = Duration::from_secs(3600);
 
-/// The form of an expression that loses fewest bits at these states; `None` where none is better than the expression itself, as
-/// far as was searched, or it is too large.
+/// The form of an expression that loses fewest bits at these states; `None` where none is better than the expression
+/// itself, as far as was searched, or it is too large.
 pub fn propose(graph: &mut Graph, e: Expr, variables: &[Variable], states: &[Vec<f64>]) -> Option<Expr> {
     // A panic within egg costs a proposal, and no more.
     caught(|| search(graph, e, variables, states)).ok().flatten()

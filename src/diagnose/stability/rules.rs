@@ -1,9 +1,10 @@
 //! The identities that stable forms are searched with. Each holds for real numbers wherever both sides are defined;
 //! a test puts each of them to the check that also judges the results ([`super::same`]).
 //!
-//! Where they are from: the conjugate of a difference of roots and the "citardauq" form of the roots of a quadratic (Higham,
-//! *Accuracy and Stability of Numerical Algorithms*, sections 1.7 and 1.8), half angles for 1 - cos (the same), the arc cosine by the arc tangent (Kahan, *Branch cuts for complex elementary functions*, 1987), expm1 and
-//! log1p by the hyperbolic functions, and the squares of sn, cn, dn (DLMF 22.6.1 to 22.6.3).
+//! Where they are from: the conjugate of a difference of roots, the "citardauq" form of the roots of a quadratic and the
+//! half angles for 1 - cos are in Higham, *Accuracy and Stability of Numerical Algorithms*, 2nd ed. 2002, sections 1.7 and
+//! 1.8; the arc cosine by the arc tangent in Kahan, *Branch cuts for complex elementary functions*, 1987; the squares of
+//! sn, cn, dn in DLMF 22.6.1 to 22.6.3. The hyperbolic functions stand for expm1 and log1p, which a tape does not have.
 
 use egg::{Analysis, DidMerge, EGraph, Id, Language, Pattern, Rewrite, Subst, Var};
 
@@ -164,7 +165,8 @@ pub const IDENTITIES: &[Identity] = &[
     from_left("dn near k = 1", "(sq (dn ?u ?k))", "(+ (sq (cn ?u ?k)) (* (- 1 (sq ?k)) (sq (sn ?u ?k))))"),
 ];
 
-/// The identities as rewriting rules; those that do not parse, of which a test says that there are none, are left out.
+/// The identities as rewriting rules; those that do not parse, of which a test says that there are none, are left
+/// out.
 pub fn rules() -> Vec<Rule> {
     let mut rules = Vec::new();
     for identity in IDENTITIES {

@@ -1,7 +1,8 @@
-//! Whether two forms are the same formula: exactly, at random points of the prime field, or in values at random states.
+//! Whether two forms are the same formula: exactly, at random points of the prime field, or in values at random
+//! states.
 //!
-//! Nothing but the forms decides: no premise is used. Two forms are called different only where that is certain: at some
-//! state both have values that differ, or one has no value wherever the other has one.
+//! Nothing but the forms decides: no premise is used. Two forms are called different only where that is certain: at
+//! some state both have values that differ, or one has no value wherever the other has one.
 
 use serde::Serialize;
 
@@ -66,7 +67,8 @@ pub fn same(graph: &mut Graph, a: &[Expr], b: &[Expr], variables: &[Variable], r
     in_field(graph, &residuals, random).unwrap_or_else(|| in_values(graph, a, b, variables, random))
 }
 
-/// The verdict of the field, where it has one: where roots are involved, only that the forms are the same, with all signs.
+/// The verdict of the field, where it has one: where roots are involved, only that the forms are the same, with all
+/// signs.
 fn in_field(graph: &Graph, residuals: &[Expr], random: &mut Random) -> Option<Sameness> {
     let field = Field::new(graph, residuals);
     if !field.meaningless().is_empty() || field.roots() > MOST_ROOTS {
@@ -144,7 +146,8 @@ fn in_values(graph: &Graph, a: &[Expr], b: &[Expr], variables: &[Variable], rand
             states += 1;
         }
     }
-    // A form may be undefined at some states; where it is nowhere when the other one is defined, it is another formula.
+    // A form may be undefined at some states; where it is nowhere when the other one is defined, it is another
+    // formula.
     if states == 0 && apart >= LEAST_STATES {
         return Sameness::Different;
     }

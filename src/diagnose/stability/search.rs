@@ -1,7 +1,8 @@
-//! The states at which a formula loses most, searched for: random states, states near the edges, and from the worst of
-//! them on by steps that are kept where they lose more.
+//! The states at which a formula loses most, searched for: random states, states near the edges, and from the worst
+//! of them on by steps that are kept where they lose more.
 //!
-//! Promises: the same seed and name give the same states; what is told of a state is certain ([`Meter::lost`]); the number of evaluations is bounded. Not promised: that no state loses more.
+//! Promises: the same seed and name give the same states; what is told of a state is certain ([`Meter::lost`]); the
+//! number of evaluations is bounded. Not promised: that no state loses more.
 
 use serde::Serialize;
 
@@ -64,8 +65,9 @@ impl Goal {
     }
 }
 
-/// Searches the states of a formula. `None` where nothing is certain at any random state: it is undefined, or vanishes. `known`
-/// are states from which steps are taken, too: another form of a formula is to be good where that one was bad.
+/// Searches the states of a formula. `None` where nothing is certain at any random state: it is undefined, or
+/// vanishes. `known` are states from which steps are taken, too: another form of a formula is to be good where that
+/// one was bad.
 pub fn search(
     graph: &Graph,
     outputs: &[Expr],

@@ -1,4 +1,5 @@
-//! Every formula of a document: where it loses its digits, whether that is the problem's fault, and what rewriting can do.
+//! Every formula of a document: where it loses its digits, whether that is the problem's fault, and what rewriting
+//! can do.
 
 use rayon::prelude::*;
 use serde::Serialize;
@@ -99,7 +100,8 @@ pub struct Counts {
     pub losing: usize,
     /// Of these, those that lose no more than that beyond the condition: the problem is ill-conditioned.
     pub ill_conditioned: usize,
-    /// Of these, those for which rewriting found a form that loses no more than 10 bits anywhere, from numbers that are taken as exact.
+    /// Of these, those for which rewriting found a form that loses no more than 10 bits anywhere, from numbers that
+    /// are taken as exact.
     pub exact_numbers: usize,
     /// The others: the formula is unstable.
     pub unstable: usize,

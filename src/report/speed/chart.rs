@@ -8,9 +8,9 @@ use crate::scene::drift::Drift;
 use crate::scene::speed::{Run, front};
 
 /// The colours for models; with dashes there are twice as many lines.
-const COLOURS: usize = 4;
+const COLOURS: usize = 6;
 /// The colour of the front.
-const FRONT: u8 = 5;
+const FRONT: u8 = 7;
 
 /// The chart of a scene: a line for each model, and the front behind them.
 pub(super) fn chart(measured: &Measured) -> Result<Chart, ChartError> {
@@ -43,9 +43,10 @@ pub(super) fn chart(measured: &Measured) -> Result<Chart, ChartError> {
     let title = format!("{}: time against error", scene.name);
     let svg = plot(&title, &x, &y, &series)?;
     let caption = format!(
-        "{} values up to t = {} s; a point is a run of a model in a number type, with a tolerance if it is an integrator.",
+        "{} values up to t = {} {}; a point is a run of a model in a number type, with a tolerance if it is an integrator.",
         measured.sweep.times.len() * measured.sweep.quantities.len(),
         number(measured.until(), 4),
+        scene.time,
     );
     Ok(Chart { id: format!("speed-{}", scene.name), title, caption, svg, legend, table: table(measured) })
 }

@@ -1,4 +1,5 @@
-//! `stability.html` and `stability.json`: where the formulas of notes lose their digits in doubles, and forms that do not.
+//! `stability.html` and `stability.json`: where the formulas of notes lose their digits in doubles, and forms that do
+//! not.
 
 #[cfg(test)]
 mod tests;
