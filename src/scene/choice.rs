@@ -154,7 +154,7 @@ pub fn choose(request: &Request) -> Result<Outcome, SceneError> {
             refused.retain(|r| r.arithmetic != outcome.arithmetic);
             Ok(Outcome { refused, ..outcome })
         }
-        nearest => Err(out_of_reach(request, nearest)),
+        nearest => Err(out_of_reach(request, nearest, refused.last())),
     }
 }
 
@@ -178,7 +178,7 @@ fn check(request: &Request) -> Result<(), SceneError> {
 fn too_coarse(arithmetic: Arithmetic, yardstick: &Yardstick, error: f64) -> Option<Refusal> {
     let largest = yardstick.values.to_f64().iter().flatten().fold(0.0_f64, |most, x| most.max(x.abs()));
     let roundoff = largest * f64::exp2(-f64::from(arithmetic.bits()) - 1.0);
-    let why = format!("it holds the largest value, {largest:.1e}, to {roundoff:.0e} only");
+    let why = format!("the largest value, {largest:.1e}, is held to {roundoff:.0e} only");
     (roundoff > error).then_some(Refusal { model: "any model", arithmetic, measured: None, why })
 }
 
@@ -186,10 +186,14 @@ fn margin(kind: Kind) -> f64 {
     if kind == Kind::Approximation { MARGIN } else { ROUNDING_MARGIN }
 }
 
-fn out_of_reach(request: &Request, nearest: Option<Outcome>) -> SceneError {
-    let best = nearest.map_or_else(String::new, |n| {
-        format!(": the best, `{}` in {}, has one of {:.1e}", n.model.name, n.arithmetic.name(), n.measured)
-    });
+fn out_of_reach(request: &Request, nearest: Option<Outcome>, last: Option<&Refusal>) -> SceneError {
+    let best = match (nearest, last) {
+        (Some(n), _) => {
+            format!(": the best, `{}` in {}, has one of {:.1e}", n.model.name, n.arithmetic.name(), n.measured)
+        }
+        (None, Some(refusal)) => format!(": in {}, {}", refusal.arithmetic.name(), refusal.why),
+        _ => String::new(),
+    };
     let help = if cfg!(feature = "rug") {
         "ask for a larger error, a shorter time or more bits (--precision)"
     } else {
