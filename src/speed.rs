@@ -18,6 +18,7 @@ const ASKED: [f64; 5] = [1e-2, 1e-4, 1e-6, 1e-9, 1e-12];
 fn span(scene: &Scene) -> (f64, &'static [&'static str]) {
     match scene.name {
         "top" => (1000.0, &["theta"]),
+        "free" => (1000.0, &["omega_1", "q_0"]),
         _ => (100.0, &[]),
     }
 }

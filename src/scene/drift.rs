@@ -107,7 +107,7 @@ fn drift(course: &Course, periods: f64, members: usize) -> Result<Vec<Drift>, Sc
     let records = records?;
     let seconds_per_period = begin.elapsed().as_secs_f64() / (periods * members as f64);
     let each = course.constants.iter().enumerate().map(|(k, (constant, _))| {
-        let points = together(&records, k);
+        let points = together(&records, k, periods);
         let exponent = exponent(&points);
         let (scene, method) = (course.scene, course.method.to_owned());
         Drift { scene, method, constant, points, exponent, seconds_per_period }
@@ -115,9 +115,10 @@ fn drift(course: &Course, periods: f64, members: usize) -> Result<Vec<Drift>, Sc
     Ok(each.collect())
 }
 
-/// The root mean square of a constant's error in each bin, over all records.
-fn together(records: &[Record], constant: usize) -> Vec<(f64, f64)> {
-    let bins = records.iter().map(|r| r.bins.len()).max().unwrap_or(0);
+/// The root mean square of a constant's error in each bin that is full, over all records.
+fn together(records: &[Record], constant: usize, periods: f64) -> Vec<(f64, f64)> {
+    let full = (periods.log10() * BINS + 1e-9).max(0.0) as usize;
+    let bins = records.iter().map(|r| r.bins.len()).max().unwrap_or(0).min(full);
     let point = |bin: usize| {
         let of = |r: &Record| r.bins.get(bin).map_or((0, 0.0), |(n, squares)| (*n, squares[constant]));
         let (count, sum) = records.iter().map(of).fold((0, 0.0), |(n, s), (m, t)| (n + m, s + t));

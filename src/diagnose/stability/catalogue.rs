@@ -16,7 +16,7 @@ use super::propose::propose;
 use super::same::{Sameness, same};
 use super::search::{Effort, Found, search};
 use super::speed::nanoseconds;
-use super::write_latex::to_latex;
+use super::write_latex::readable;
 
 /// The catalogue's data.
 const BUNDLED: &str = include_str!("../../../notes/hard-cases.toml");
@@ -161,6 +161,7 @@ struct Setting {
 /// A case ready to be measured: both forms in one graph.
 pub struct Ready<'c> {
     case: &'c Case,
+    place: (&'c Book, usize),
     /// The graph, the formula and what restricts its states.
     pub computed: Computed,
     /// The stable form.
@@ -176,7 +177,7 @@ impl<'c> Ready<'c> {
     ///
     /// # Errors
     /// [`CaseError`]
-    pub fn new(case: &'c Case, book: &Book, seed: u64) -> Result<Self, CaseError> {
+    pub fn new(case: &'c Case, book: &'c Book, seed: u64) -> Result<Self, CaseError> {
         let index = book.find(&case.equation).map(|(index, _)| index);
         let index = index.ok_or_else(|| CaseError::Equation(case.name.clone(), case.equation.clone()))?;
         let unclear =
@@ -202,7 +203,7 @@ impl<'c> Ready<'c> {
         let all: Vec<Expr> = of_case.outputs.iter().chain(stable.iter().flatten()).copied().collect();
         let variables = of_case.variables(&all);
         let printed = is_side(book, index, &of_case, &variables, seed);
-        Ok(Ready { case, computed: of_case, stable, variables, printed })
+        Ok(Ready { case, place: (book, index), computed: of_case, stable, variables, printed })
     }
 
     /// Measures it.
@@ -237,11 +238,11 @@ impl<'c> Ready<'c> {
     }
 
     /// The mutants of the stable form that make sense, and the LaTeX of those that are not told from the formula.
-    pub fn mutants(&mut self, book: &Book, seed: u64) -> (usize, Vec<String>) {
+    pub fn mutants(&mut self, seed: u64) -> (usize, Vec<String>) {
         let Some(tree) = self.case.stable.as_deref().and_then(|s| Formula::new(s).tree.ok()) else {
             return (0, Vec::new());
         };
-        let Some((index, _)) = book.find(&self.case.equation) else { return (0, Vec::new()) };
+        let (book, index) = self.place;
         let (mut total, mut survivors) = (0, Vec::new());
         for mutant in mutants(&tree, &book.entries[index].scope, Reach::MUTANTS) {
             let Ok(outputs) = components(&mut self.computed.world, book, index, &mutant.tree) else { continue };
@@ -308,7 +309,7 @@ impl<'c> Ready<'c> {
             }
         }
         let new = propose(&mut self.computed.world.graph, output, &self.variables, &states)?;
-        let latex = to_latex(&self.computed.world, new)?;
+        let latex = readable(&mut self.computed.world, new, self.place, &self.variables, random)?;
         let other = self.other(&latex, &[new], setting, random).ok()?;
         let (old, new) = (&before.found, &other.form.found);
         let gained =

@@ -15,7 +15,7 @@ use super::propose::propose;
 use super::same::{Sameness, same};
 use super::search::{Effort, Found, search};
 use super::space::Space;
-use super::write_latex::to_latex;
+use super::write_latex::readable;
 
 /// The bits from which on a loss counts.
 pub const MANY: f64 = 10.0;
@@ -174,7 +174,8 @@ fn of_equation(book: &Book, index: usize, seed: u64) -> Vec<Item> {
         let (graph, outputs) = (&formula.world.graph, formula.outputs.clone());
         let found = search(graph, &outputs, &formula.positive, &variables, &[], effort, &mut random)?;
         let loses = found.worst.loss.lost > MANY;
-        let proposal = loses.then(|| improved(&mut formula, &variables, &found, effort, &mut random)).flatten();
+        let proposal =
+            loses.then(|| improved((book, index), &mut formula, &variables, &found, effort, &mut random)).flatten();
         Some(Item {
             label: equation.label.clone(),
             line: equation.line,
@@ -197,6 +198,7 @@ fn effort(graph: &Graph, outputs: &[Expr]) -> Effort {
 
 /// A form of a formula that loses less, by rewriting.
 fn improved(
+    place: (&Book, usize),
     formula: &mut Computed,
     variables: &[Variable],
     before: &Found,
@@ -214,7 +216,7 @@ fn improved(
         before.mean - found.mean,
     ];
     let better = gains.iter().any(|g| *g > 1.0) && gains.iter().all(|g| *g > -1.0);
-    let latex = to_latex(&formula.world, new);
+    let latex = readable(&mut formula.world, new, place, variables, random);
     (sameness.holds() && better).then_some(Proposal { latex, sameness, found })
 }
 

@@ -1,6 +1,8 @@
 //! `speed.html` and `speed.json`: what accuracy costs in each scene, model by model.
 
 mod chart;
+#[cfg(test)]
+mod tests;
 mod view;
 
 use std::path::Path;
