@@ -1,7 +1,7 @@
 //! Motions followed by methods that go from step to step, shown at the times asked for.
 
 use super::{Cost, SceneError, Task};
-use crate::integrator::{Adaptive, Method, State, System, integrate_fixed};
+use crate::integrator::{Adaptive, IntegrationError, Method, State, System, integrate_fixed};
 use crate::number::Number;
 
 /// The most steps that a method may take.
@@ -67,13 +67,24 @@ pub(super) fn walk<N: Number>(
         if t > now {
             let (from, count) = (like.like(now), count.max(1.0));
             let h = like.like(t).minus(&from).over(&like.like(count));
-            state = integrate_fixed(method, (&from, &state), &h, count as usize, |_, _: &State<N>| {})?;
+            state =
+                integrate_fixed(method, (&from, &state), &h, count as usize, |_, _: &State<N>| {}).map_err(too_fast)?;
             steps += count as usize;
         }
         show(&like.like(t), &state);
         now = t;
     }
     Ok(Cost { evaluations: steps, steps, order: order as usize })
+}
+
+/// Where the motion is faster for a while than it was taken to be, an implicit step is too long to be solved.
+fn too_fast(error: IntegrationError) -> SceneError {
+    match error {
+        IntegrationError::NoConvergence { .. } => {
+            SceneError::regime(error.to_string(), "take a model that chooses its steps on the way")
+        }
+        _ => error.into(),
+    }
 }
 
 /// The stages of a Gauss-Legendre method for the task's tolerance: one for some two and a half digits.

@@ -27,6 +27,8 @@ pub(super) enum Op {
     /// A constant series times another.
     Scale(Slot, Slot),
     Div(Slot, Slot),
+    /// A series over a constant one.
+    Over(Slot, Slot),
     Sqrt(Slot),
     /// k aₖ.
     Weighted(Slot),
@@ -63,6 +65,8 @@ impl Op {
 pub(super) struct Desk<N> {
     /// 0, 1, 2, ...
     pub integers: Vec<N>,
+    /// 1/k, with 0 for k = 0: a product is cheaper than a quotient, and a rounding more is little beside those of the sums.
+    pub inverses: Vec<N>,
     sum: N,
     other: N,
 }
@@ -71,7 +75,9 @@ impl<N: Number> Desk<N> {
     pub fn new(order: usize, cx: &N::Context) -> Self {
         let zero = N::zero(cx);
         let integers = (0..=order).map(|k| N::from_f64(k as f64, cx)).collect();
-        Desk { integers, sum: zero.clone(), other: zero }
+        let inverse = |k: usize| if k == 0 { zero.clone() } else { N::from_ratio(1, k as i128, cx) };
+        let inverses = (0..=order).map(inverse).collect();
+        Desk { integers, inverses, sum: zero.clone(), other: zero }
     }
 }
 
@@ -88,7 +94,7 @@ pub(super) fn begin<N: Number>(op: Op, known: &[N], to: &mut [N], stride: usize,
         Op::Sub(a, b) => to[0].set_sub(at(a), at(b)),
         Op::Mul(a, b) | Op::Scale(a, b) => to[0].set_mul(at(a), at(b)),
         Op::Square(a) => to[0].set_mul(at(a), at(a)),
-        Op::Div(a, b) => to[0].set_div(at(a), at(b)),
+        Op::Div(a, b) | Op::Over(a, b) => to[0].set_div(at(a), at(b)),
         Op::Sqrt(a) => to[0].set_sqrt(at(a)),
         Op::Weighted(a) => to[0] = at(a).like(0.0),
         Op::Exp(a, _) => to[0].set_call(Func::Exp, at(a)),
@@ -114,13 +120,14 @@ pub(super) fn extend<N: Number>(op: Op, known: &[N], to: &mut [N], stride: usize
     let series = |slot: Slot| &known[slot * stride..][..stride];
     let at = |slot: Slot| &known[slot * stride + k];
     let (to, next) = to.split_at_mut(stride);
-    let Desk { integers, sum, other } = desk;
+    let Desk { integers, inverses, sum, other } = desk;
     match op {
         Op::State(_) | Op::Constant(_) | Op::One | Op::Sign(_) => {}
         Op::Time => to[k].set(&integers[usize::from(k == 1)]),
         Op::Neg(a) => to[k].set_neg(at(a)),
         Op::Add(a, b) => to[k].set_add(at(a), at(b)),
         Op::Sub(a, b) => to[k].set_sub(at(a), at(b)),
+        Op::Over(a, c) => to[k].set_div(at(a), &series(c)[0]),
         Op::Scale(c, a) => to[k].set_mul(&series(c)[0], at(a)),
         Op::Weighted(a) => to[k].set_mul(&integers[k], at(a)),
         Op::Mul(a, b) => to[k].set_convolution(&series(a)[..=k], &series(b)[..=k]),
@@ -144,20 +151,20 @@ pub(super) fn extend<N: Number>(op: Op, known: &[N], to: &mut [N], stride: usize
         }
         Op::Exp(_, w) => {
             sum.set_convolution(&series(w)[1..=k], &to[..k]);
-            to[k].set_div(sum, &integers[k]);
+            to[k].set_mul(sum, &inverses[k]);
         }
         Op::SinCos(_, w) => {
             sum.set_convolution(&series(w)[1..=k], &next[..k]);
             other.set_convolution(&series(w)[1..=k], &to[..k]);
-            to[k].set_div(sum, &integers[k]);
+            to[k].set_mul(sum, &inverses[k]);
             sum.set_neg(other);
-            next[k].set_div(sum, &integers[k]);
+            next[k].set_mul(sum, &inverses[k]);
         }
         Op::SinhCosh(_, w) => {
             sum.set_convolution(&series(w)[1..=k], &next[..k]);
             other.set_convolution(&series(w)[1..=k], &to[..k]);
-            to[k].set_div(sum, &integers[k]);
-            next[k].set_div(other, &integers[k]);
+            to[k].set_mul(sum, &inverses[k]);
+            next[k].set_mul(other, &inverses[k]);
         }
         Op::Pow(a, w, r) => {
             // a p' = r a' p.
@@ -166,17 +173,17 @@ pub(super) fn extend<N: Number>(op: Op, known: &[N], to: &mut [N], stride: usize
             other.set_convolution(&next[1..k], &series(a)[1..k]);
             let term = sum.minus(other);
             next[k].set_div(&term, &series(a)[0]);
-            to[k].set_div(&next[k], &integers[k]);
+            to[k].set_mul(&next[k], &inverses[k]);
         }
         Op::Integral(_, [_, w, g]) => {
             sum.set_convolution(&series(w)[1..=k], &series(g)[..k]);
-            to[k].set_div(sum, &integers[k]);
+            to[k].set_mul(sum, &inverses[k]);
         }
         Op::Angle([_, _, wy, wx, gx, gy]) => {
             sum.set_convolution(&series(wy)[1..=k], &series(gx)[..k]);
             other.set_convolution(&series(wx)[1..=k], &series(gy)[..k]);
             let term = sum.minus(other);
-            to[k].set_div(&term, &integers[k]);
+            to[k].set_mul(&term, &inverses[k]);
         }
         Op::Abs(a) => {
             other.set_call(Func::Sign, &series(a)[0]);

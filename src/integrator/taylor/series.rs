@@ -119,7 +119,7 @@ impl Series {
             }
             for (i, rate) in self.rates.iter().enumerate() {
                 // Where the rate is a component itself, its series stands among the state's.
-                let next = coefficients[rate * stride + k].over(&desk.integers[k + 1]);
+                let next = coefficients[rate * stride + k].times(&desk.inverses[k + 1]);
                 coefficients[i * stride + k + 1] = next;
             }
         }
@@ -196,6 +196,7 @@ impl Compiler<'_> {
             Node::Add(a, b) => self.push(Op::Add(at(a), at(b))),
             Node::Sub(a, b) => self.push(Op::Sub(at(a), at(b))),
             Node::Mul(a, b) => self.product(at(a), at(b)),
+            Node::Div(a, b) if self.is_constant(at(b)) => self.push(Op::Over(at(a), at(b))),
             Node::Div(a, b) => self.push(Op::Div(at(a), at(b))),
             Node::PowI(a, n) => self.integer_power(at(a), n),
             Node::Pow(a, b) => self.power(at(a), at(b)),

@@ -67,11 +67,12 @@ impl<N: Number> Start<N> {
     pub fn read(task: &Task, cx: &N::Context) -> Result<Self, SceneError> {
         let at = |position: usize| V(task.parameter::<N>(position, cx));
         let (omega, flattening, obliquity) = (at(0), at(1), at(11));
-        if !(omega.0.to_f64() > 0.0) {
-            let what = format!("the rate omega of the rotation is {}", omega.0.to_f64());
+        let (rate, sin) = (omega.0.to_f64(), obliquity.sin().0.to_f64());
+        if rate.is_nan() || rate <= 0.0 {
+            let what = format!("the rate omega of the rotation is {rate}");
             return Err(SceneError::parameter(what, "give it a positive value"));
         }
-        if !(obliquity.sin().0.to_f64() > 1e-6) {
+        if sin.is_nan() || sin <= 1e-6 {
             let what = format!("the obliquity is {}", obliquity.0.to_f64());
             return Err(SceneError::parameter(what, "give it a value between 0 and pi: else the equator has no node"));
         }

@@ -42,6 +42,8 @@ pub struct Pendulum;
 
 /// sigma and sigma'/2w.
 type Point<N> = (V<N>, V<N>);
+/// A motion as a function of w t.
+type Course<N> = Box<dyn Fn(&V<N>) -> Point<N>>;
 
 impl Model for Pendulum {
     fn about(&self) -> About {
@@ -75,7 +77,7 @@ fn elliptic<N: Number>(f: Elliptic, x: &V<N>, k: &V<N>) -> V<N> {
 }
 
 /// The pendulum's motion as a function of w t, from sigma and sigma'/2w at t = 0.
-fn pendulum<N: Number>(sigma: &V<N>, speed: &V<N>) -> Result<Box<dyn Fn(&V<N>) -> Point<N>>, SceneError> {
+fn pendulum<N: Number>(sigma: &V<N>, speed: &V<N>) -> Result<Course<N>, SceneError> {
     let cx = sigma.0.context();
     let turn = V(N::pi(&cx)) * 2.0;
     let turns = (sigma.0.to_f64() / std::f64::consts::TAU).round();

@@ -67,13 +67,15 @@ impl<N: Number> Start<N> {
         let [omega, h, asymmetry, alpha, counter, nu, beta, j, l] = [0, 1, 2, 3, 4, 5, 6, 7, 8].map(at);
         let one = omega.like(1.0);
         for (what, value) in [("C/A = 1 + H", &one + &h), ("B/A = 1 + asymmetry", &one + &asymmetry)] {
-            if !(value.0.to_f64() > 0.0) {
-                let what = format!("{what} is {}", value.0.to_f64());
+            let value = value.0.to_f64();
+            if value.is_nan() || value <= 0.0 {
+                let what = format!("{what} is {value}");
                 return Err(SceneError::parameter(what, "give it a positive value: moments of inertia are"));
             }
         }
-        if !(j.0.to_f64().abs() < 1.0) {
-            let what = format!("J_0 is {}", j.0.to_f64());
+        let inclined = j.0.to_f64();
+        if inclined.is_nan() || inclined.abs() >= 1.0 {
+            let what = format!("J_0 is {inclined}");
             return Err(SceneError::parameter(what, "give it a value between -1 and 1 rad: the wobble is small"));
         }
         // C/B - 1 = (C - B)/B
