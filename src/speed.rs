@@ -1,6 +1,7 @@
 //! What accuracy costs: the scenes' models, measured at every tolerance.
 
-use crate::report::speed::Measured;
+use crate::report::speed::{Measured, Speed};
+use crate::scene::drift::drifts;
 use crate::scene::speed::Sweep;
 use crate::scene::{SCENES, Scene, SceneError};
 
@@ -13,10 +14,11 @@ const TIGHT: [f64; 3] = [1e-22, 1e-30, 1e-60];
 /// The errors for which the scene is asked what it takes.
 const ASKED: [f64; 5] = [1e-2, 1e-4, 1e-6, 1e-9, 1e-12];
 
-/// The span in s over which a scene's motion is followed, and the quantities: what its users would ask for.
+/// The span, in the scene's unit of time, over which a scene's motion is followed, and the quantities: what its users would ask for.
 fn span(scene: &Scene) -> (f64, &'static [&'static str]) {
     match scene.name {
         "top" => (1000.0, &["theta"]),
+        "free" => (1000.0, &["omega_1", "q_0"]),
         _ => (100.0, &[]),
     }
 }
@@ -31,11 +33,15 @@ pub fn sweep(scene: &'static Scene) -> Sweep {
     Sweep { scene, parameters: scene.defaults(), quantities, times, tolerances }
 }
 
-/// Measures scenes; all of them where none is named. One after another: side by side they would disturb each other.
+/// The members of the ensembles that are followed over many periods.
+const MEMBERS: usize = 4;
+
+/// Measures scenes; all of them where none is named, and then also how constants are kept over so many periods. Scenes are
+/// measured one after another: side by side they would disturb each other.
 ///
 /// # Errors
 /// [`SceneError::Unknown`]: a scene that does not exist.
-pub fn speed(names: &[String]) -> Result<Vec<Measured>, SceneError> {
+pub fn speed(names: &[String], periods: u32) -> Result<Speed, SceneError> {
     let named: Result<Vec<&'static Scene>, SceneError> = names.iter().map(|n| crate::scene::scene(n)).collect();
     let scenes = if names.is_empty() { SCENES.to_vec() } else { named? };
     let measure = |scene: &'static Scene| {
@@ -43,5 +49,7 @@ pub fn speed(names: &[String]) -> Result<Vec<Measured>, SceneError> {
         let (runs, picks) = (sweep.run()?, sweep.picks(&ASKED));
         Ok(Measured { sweep, runs, picks })
     };
-    scenes.into_iter().map(measure).collect()
+    let scenes: Result<Vec<Measured>, SceneError> = scenes.into_iter().map(measure).collect();
+    let drifts = if names.is_empty() && periods > 0 { drifts(periods.into(), MEMBERS)? } else { Vec::new() };
+    Ok(Speed { scenes: scenes?, drifts })
 }

@@ -20,7 +20,7 @@ pub(super) struct Arguments {
     /// A quantity, or several with commas between them; without any, the scene's quantities and models are listed.
     #[arg(long, short, value_name = "NAME", value_delimiter = ',')]
     quantity: Vec<String>,
-    /// The last time, in s.
+    /// The last time, in the scene's unit of time.
     #[arg(long, value_name = "T", default_value_t = 10.0)]
     until: f64,
     /// The number of times, from 0 to the last one.
@@ -205,7 +205,8 @@ fn names(request: &Request) -> Vec<(&'static str, &'static str)> {
 
 fn table(request: &Request, outcome: &Outcome) -> String {
     let named = names(request);
-    let head = std::iter::once("t [s]".to_owned()).chain(named.iter().map(|(n, u)| format!("{n} [{u}]")));
+    let head =
+        std::iter::once(format!("t [{}]", request.scene.time)).chain(named.iter().map(|(n, u)| format!("{n} [{u}]")));
     let head: Vec<String> = head.collect();
     let rows = rows(request, outcome);
     let width =

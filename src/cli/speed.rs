@@ -13,13 +13,17 @@ pub struct Arguments {
     /// The directory of speed.html and speed.json.
     #[arg(long, default_value = "out")]
     out: PathBuf,
+    /// How many periods the constants of motions are followed through, where no scene is named.
+    #[arg(long, default_value_t = 10_000, value_parser = clap::value_parser!(u32).range(0..=10_000_000))]
+    periods: u32,
 }
 
 /// Measures, writes the page and the data, prints what each scene takes.
 pub fn run(arguments: &Arguments) -> miette::Result<()> {
-    let measured = speed(&arguments.scenes)?;
+    let measured = speed(&arguments.scenes, arguments.periods)?;
     let written = report::speed::write(&measured, &arguments.out)?;
-    let tables: Vec<String> = measured.iter().map(report::speed::table).collect();
-    super::print_text(&format!("{}\nreport: {}\n", tables.join("\n"), written.html.display()));
+    let tables: Vec<String> = measured.scenes.iter().map(report::speed::table).collect();
+    let growth = report::speed::growth(&measured.drifts);
+    super::print_text(&format!("{}\n{growth}\nreport: {}\n", tables.join("\n"), written.html.display()));
     Ok(())
 }

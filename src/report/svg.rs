@@ -10,7 +10,7 @@ use std::ops::Range;
 
 /// A line of a chart.
 pub(super) struct Series {
-    /// Its colour: 1 to 4, or 5 for a broad line behind the others.
+    /// Its colour: 1 to 6, or 7 for a broad line behind the others.
     pub colour: u8,
     /// Whether its line is dashed and its markers are rings.
     pub dashed: bool,
@@ -137,7 +137,7 @@ pub(super) fn with_classes(svg: &str, title: &str, (width, height): (u32, u32)) 
         body = body.replace(&format!("stroke=\"{colour}\""), &format!("class=\"{class}\""));
         body = body.replace(&format!("fill=\"{colour}\""), "class=\"label\"");
     }
-    for n in 1..=5 {
+    for n in 1..=7 {
         for (colour, stroke) in [("#0A000", "line"), ("#0B000", "dash")] {
             body = body.replace(&format!("stroke=\"{colour}{n}\""), &format!("class=\"{stroke}-{n}\""));
             body = body.replace(&format!("fill=\"{colour}{n}\""), &format!("class=\"fill-{n}\""));

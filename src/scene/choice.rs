@@ -30,7 +30,7 @@ pub struct Request {
     pub parameters: Vec<f64>,
     /// The quantities, by position in [`Scene::quantities`].
     pub quantities: Vec<usize>,
-    /// The times in s, not negative and rising.
+    /// The times in the scene's unit, not negative and rising.
     pub times: Vec<f64>,
     /// The largest absolute error of a value, in the unit of its quantity.
     pub error: f64,
@@ -110,9 +110,13 @@ pub fn choose(request: &Request) -> Result<Outcome, SceneError> {
             Err(why) if step == 0 => return Err(why),
             Err(_) => break,
         };
+        if let Some(refusal) = too_coarse(arithmetic, &yardstick, request.error) {
+            refused.push(refusal);
+            continue;
+        }
         for &model in &candidates {
             let about = model.about();
-            if step > 0 && about.kind == Kind::Approximation {
+            if step > 0 && about.kind == Kind::Approximation && forced.is_none() {
                 continue; // No number makes it better.
             }
             let attempt = match chooser.attempt(model, arithmetic, &yardstick) {
@@ -145,7 +149,11 @@ pub fn choose(request: &Request) -> Result<Outcome, SceneError> {
         }
     }
     match nearest {
-        Some(outcome) if forced.is_some() => Ok(Outcome { refused, ..outcome }),
+        Some(outcome) if forced.is_some() => {
+            // What is taken all the same is not refused.
+            refused.retain(|r| r.arithmetic != outcome.arithmetic);
+            Ok(Outcome { refused, ..outcome })
+        }
         nearest => Err(out_of_reach(request, nearest)),
     }
 }
@@ -164,6 +172,14 @@ fn check(request: &Request) -> Result<(), SceneError> {
         return Err(SceneError::parameter(what, "give it a finite value"));
     }
     Ok(())
+}
+
+/// Values that a number type cannot even hold to the error asked for are not computed in it.
+fn too_coarse(arithmetic: Arithmetic, yardstick: &Yardstick, error: f64) -> Option<Refusal> {
+    let largest = yardstick.values.to_f64().iter().flatten().fold(0.0_f64, |most, x| most.max(x.abs()));
+    let roundoff = largest * f64::exp2(-f64::from(arithmetic.bits()) - 1.0);
+    let why = format!("it holds the largest value, {largest:.1e}, to {roundoff:.0e} only");
+    (roundoff > error).then_some(Refusal { model: "any model", arithmetic, measured: None, why })
 }
 
 fn margin(kind: Kind) -> f64 {

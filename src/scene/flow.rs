@@ -38,6 +38,11 @@ impl<'g> Term<'g> {
         self.with(|g| g.powi(self.expr, 2))
     }
 
+    /// The square root.
+    pub fn sqrt(self) -> Term<'g> {
+        self.with(|g| g.sqrt(self.expr))
+    }
+
     /// The sine and the cosine.
     pub fn sin_cos(self) -> (Term<'g>, Term<'g>) {
         (self.with(|g| g.call(Func::Sin, self.expr)), self.with(|g| g.call(Func::Cos, self.expr)))

@@ -6,6 +6,7 @@ mod approximate;
 mod closed;
 mod equations;
 mod start;
+mod stepped;
 
 use super::Scene;
 
@@ -13,7 +14,16 @@ use super::Scene;
 pub static SCENE: Scene = Scene {
     name: "free",
     about: "the free body: principal moments A, B, C, no torque; its axes are the inertial ones at t = 0",
+    time: "s",
     parameters: start::PARAMETERS,
     quantities: start::QUANTITIES,
-    models: &[&approximate::Symmetric, &closed::Closed, &equations::Euler, &equations::Adaptive8],
+    models: &[
+        &approximate::Symmetric,
+        &closed::Closed,
+        &stepped::Split,
+        &stepped::Gauss,
+        &stepped::Classical,
+        &stepped::Adaptive8,
+        &equations::Euler,
+    ],
 };

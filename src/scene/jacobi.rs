@@ -101,7 +101,8 @@ impl<N: Precise> Oscillation<N> {
             Regime::Hyperbolic => pi.over(&ratio),
             Regime::Separatrix => one.like(f64::INFINITY),
         };
-        let count = terms(N::precision_bits(cx), decay.to_f64());
+        let separatrix = regime == Regime::Separatrix;
+        let count = if separatrix { 0 } else { terms(N::precision_bits(cx), decay.to_f64()) };
         let power = |e: usize| -> N {
             match (e, decay.is_finite()) {
                 (0, _) => N::from_f64(1.0, cx),
@@ -337,4 +338,67 @@ pub(super) fn phase<N: Number>(s: &N, c: &N, d: &N, backward: bool) -> N {
     let whole = s.plus(c);
     let size = s.over(&whole).root().times(&bare::rf(&c.over(&whole), d, &s.like(1.0)));
     if backward { size.negated() } else { size }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::number::{Df64, Elliptic};
+
+    fn elliptic(f: Elliptic, x: &[f64]) -> Df64 {
+        let x: Vec<Df64> = x.iter().map(|x| Df64::from(*x)).collect();
+        let mut value = Df64::from(0.0);
+        value.set_elliptic(f, &x.iter().collect::<Vec<_>>());
+        value
+    }
+
+    /// sn, cn, dn and Lambda against the elliptic functions and integrals of the number module, in double-double: moduli
+    /// of both regimes and both circular cases, near their ends, too.
+    #[test]
+    fn theta_functions_agree_with_the_elliptic_functions() {
+        let one = Df64::from(1.0);
+        for k in [0.01, 0.3, 0.7, 0.72, 0.95, 0.999_999] {
+            let m = Df64::from(k) * k;
+            let m1 = (one - Df64::from(k)) * (one + k);
+            let along = Oscillation::<Df64>::new(&m, &m1, &one, &Df64::from(0.0), &());
+            let mut point = along.room();
+            let upper = m.hi() + 0.3 * m1.hi();
+            for n in [-1e-3, -0.4, -30.0, upper, 1.0 - 0.01 * m1.hi()] {
+                let (wide, negative) = (Df64::from(n), n < 0.0);
+                let g = if negative { -m / wide } else { m / wide };
+                let r = if negative { g + one } else { (wide - m) / wide };
+                let c = ((one - wide) * r).root();
+                let turning = Turning::new(&along, &Characteristic { negative, p: one - wide, r, g });
+                for v in [0.0, 0.2, 1.3, 2.9, 40.7] {
+                    along.at(v, &mut point);
+                    let parts = [(Elliptic::Sn, &point.sn), (Elliptic::Cn, &point.cn), (Elliptic::Dn, &point.dn)];
+                    for (f, value) in parts {
+                        let error = (*value - elliptic(f, &[v, k])).hi().abs();
+                        assert!(error < 1e-28, "{}({v}, {k}) is off by {error:e}", f.name());
+                    }
+                    let amplitude = elliptic(Elliptic::Am, &[v, k]);
+                    let mut integral = Df64::from(0.0);
+                    integral.set_elliptic(Elliptic::IncompletePi, &[&amplitude, &wide, &Df64::from(k)]);
+                    let error = (turning.at(v, &point, &()) - c * integral).hi().abs();
+                    let scale = 1.0 + (c * integral).hi().abs() + 1.0 / r.hi().sqrt();
+                    assert!(error < 1e-26 * scale, "Lambda({v}) for k = {k}, n = {n} is off by {error:e}");
+                }
+            }
+        }
+    }
+
+    /// With k = 1 there is no period: sn is a hyperbolic tangent.
+    #[test]
+    fn the_separatrix_is_hyperbolic() {
+        let [zero, one] = [0.0, 1.0].map(Df64::from);
+        let along = Oscillation::<f64>::new(&one, &zero, &one, &zero, &());
+        let mut point = along.room();
+        for v in [0.0, 0.7, -3.0, 50.0, 1e6] {
+            along.at(v, &mut point);
+            let sech = 1.0 / f64::cosh(v);
+            for (value, exact) in [(point.sn, v.tanh()), (point.cn, sech), (point.dn, sech)] {
+                assert!((value - exact).abs() < 1e-15, "{value} and {exact} at {v}");
+            }
+        }
+    }
 }

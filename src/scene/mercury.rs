@@ -20,6 +20,7 @@ use super::Scene;
 pub static SCENE: Scene = Scene {
     name: "mercury",
     about: "Mercury's rotation near the 3:2 resonance, its spin axis perpendicular to a Kepler orbit",
+    time: "yr",
     parameters: start::PARAMETERS,
     quantities: start::QUANTITIES,
     models: &[

@@ -16,7 +16,11 @@
 
 mod choice;
 #[cfg(test)]
+mod choice_tests;
+#[cfg(test)]
 mod conformance;
+pub mod drift;
+pub mod earth;
 mod error;
 mod flow;
 pub mod free;
@@ -28,6 +32,8 @@ mod precise;
 pub mod speed;
 pub mod top;
 mod value;
+mod walk;
+pub mod wobble;
 mod yardstick;
 
 pub use choice::{Outcome, Refusal, Request, choose};
@@ -41,6 +47,8 @@ pub struct Scene {
     pub name: &'static str,
     /// One line.
     pub about: &'static str,
+    /// The unit of the times: "s", or "yr" for the Julian year of 365.25 days.
+    pub time: &'static str,
     /// The parameters, those of the initial state included.
     pub parameters: &'static [Parameter],
     /// What may be asked for.
@@ -74,7 +82,7 @@ pub struct Quantity {
 }
 
 /// All scenes.
-pub static SCENES: &[&Scene] = &[&top::SCENE, &free::SCENE, &mercury::SCENE];
+pub static SCENES: &[&Scene] = &[&top::SCENE, &free::SCENE, &earth::SCENE, &mercury::SCENE, &wobble::SCENE];
 
 /// The scene of this name.
 ///

@@ -41,7 +41,7 @@ pub struct Task<'a> {
     pub parameters: &'a [f64],
     /// The quantities, by position in [`Scene::quantities`].
     pub quantities: &'a [usize],
-    /// The times in s, not negative and rising. The initial state is that at t = 0.
+    /// The times in the scene's unit, not negative and rising. The initial state is that at t = 0.
     pub times: &'a [f64],
     /// What an integrator takes for its tolerance; other models need none.
     pub tolerance: f64,

@@ -157,6 +157,19 @@ impl Values {
         }
     }
 
+    /// The values of one quantity.
+    pub fn row(&self, quantity: usize) -> Values {
+        fn of<N: Clone>(rows: &[Vec<N>], row: usize) -> Vec<Vec<N>> {
+            rows.get(row).cloned().into_iter().collect()
+        }
+        match self {
+            Values::Machine(rows) => Values::Machine(of(rows, quantity)),
+            Values::Double(rows) => Values::Double(of(rows, quantity)),
+            #[cfg(feature = "rug")]
+            Values::Any(rows) => Values::Any(of(rows, quantity)),
+        }
+    }
+
     fn to_double(&self) -> Option<Vec<Vec<Df64>>> {
         match self {
             Values::Machine(rows) => Some(converted(rows, |x| Df64::from(*x))),

@@ -22,7 +22,7 @@ pub struct Sweep {
     pub parameters: Vec<f64>,
     /// The quantities, by position in [`Scene::quantities`].
     pub quantities: Vec<usize>,
-    /// The times in s, not negative and rising.
+    /// The times in the scene's unit, not negative and rising.
     pub times: Vec<f64>,
     /// The tolerances that integrators are given.
     pub tolerances: Vec<f64>,

@@ -9,6 +9,7 @@ mod approximate;
 mod closed;
 mod equations;
 mod start;
+mod stepped;
 
 use super::Scene;
 use crate::integrator::System;
@@ -18,6 +19,7 @@ use std::f64::consts::TAU;
 pub static SCENE: Scene = Scene {
     name: "top",
     about: "the heavy symmetric top: a body with a fixed point on its axis of symmetry, in uniform gravity",
+    time: "s",
     parameters: start::PARAMETERS,
     quantities: start::QUANTITIES,
     models: &[
@@ -28,6 +30,9 @@ pub static SCENE: Scene = Scene {
         &equations::Reduced,
         &equations::Axis,
         &equations::Quaternion,
+        &stepped::Classical,
+        &stepped::Gauss,
+        &stepped::Adaptive8,
         &equations::Euler,
     ],
 };

@@ -132,6 +132,11 @@ impl Taylor {
     fn log2_step<N: Number>(&self, expansion: &Expansion<N>, dimension: usize) -> f64 {
         let largest = |k: usize| {
             let sizes = (0..dimension).map(|i| &expansion.of(i)[k]);
+            // One logarithm for all, where machine numbers hold their sizes.
+            let most = sizes.clone().map(|c| c.to_f64().abs()).fold(0.0, fold_max);
+            if (1e-290..1e290).contains(&most) {
+                return most.log2();
+            }
             sizes.map(|c| if c.is_finite() { c.log2_abs() } else { f64::NAN }).fold(f64::NEG_INFINITY, fold_max)
         };
         let order = expansion.order();

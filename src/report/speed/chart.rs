@@ -4,12 +4,13 @@ use super::super::charts::{Chart, ChartError, LegendEntry, Table};
 use super::super::svg::{Axis, Series, plot};
 use super::super::text::number;
 use super::Measured;
+use crate::scene::drift::Drift;
 use crate::scene::speed::{Run, front};
 
 /// The colours for models; with dashes there are twice as many lines.
-const COLOURS: usize = 4;
+const COLOURS: usize = 6;
 /// The colour of the front.
-const FRONT: u8 = 5;
+const FRONT: u8 = 7;
 
 /// The chart of a scene: a line for each model, and the front behind them.
 pub(super) fn chart(measured: &Measured) -> Result<Chart, ChartError> {
@@ -42,9 +43,10 @@ pub(super) fn chart(measured: &Measured) -> Result<Chart, ChartError> {
     let title = format!("{}: time against error", scene.name);
     let svg = plot(&title, &x, &y, &series)?;
     let caption = format!(
-        "{} values up to t = {} s; a point is a run of a model in a number type, with a tolerance if it is an integrator.",
+        "{} values up to t = {} {}; a point is a run of a model in a number type, with a tolerance if it is an integrator.",
         measured.sweep.times.len() * measured.sweep.quantities.len(),
         number(measured.until(), 4),
+        scene.time,
     );
     Ok(Chart { id: format!("speed-{}", scene.name), title, caption, svg, legend, table: table(measured) })
 }
@@ -93,4 +95,60 @@ fn table(measured: &Measured) -> Table {
     };
     let rows = measured.runs.iter().zip(measured.on_front()).map(row).collect();
     Table { head: head.map(String::from).to_vec(), rows }
+}
+
+/// How the constants of each motion are kept: a chart for each scene and constant, a line for each method.
+pub(super) fn drifts(drifts: &[Drift]) -> Vec<Result<Chart, ChartError>> {
+    let mut subjects: Vec<(&str, &str)> = drifts.iter().map(|d| (d.scene, d.constant)).collect();
+    subjects.dedup();
+    let mut unique: Vec<(&str, &str)> = Vec::new();
+    for subject in subjects {
+        if !unique.contains(&subject) {
+            unique.push(subject);
+        }
+    }
+    unique
+        .into_iter()
+        .map(|(scene, constant)| {
+            let of: Vec<&Drift> = drifts.iter().filter(|d| (d.scene, d.constant) == (scene, constant)).collect();
+            drift(scene, constant, &of)
+        })
+        .collect()
+}
+
+fn drift(scene: &str, constant: &str, methods: &[&Drift]) -> Result<Chart, ChartError> {
+    let all = || methods.iter().flat_map(|d| d.points.iter().copied());
+    let x = Axis {
+        label: "periods",
+        range: decades(all().map(|p| p.0).collect::<Vec<_>>().into_iter()),
+        logarithmic: true,
+    };
+    let errors: Vec<f64> = all().map(|p| p.1).filter(|e| *e > 0.0).collect();
+    let y = Axis { label: "relative error", range: decades(errors.into_iter()), logarithmic: true };
+    let (mut series, mut legend, mut rows) = (Vec::new(), Vec::new(), Vec::new());
+    for (i, drift) in methods.iter().enumerate() {
+        let (colour, exponent) = ((i % COLOURS + 1) as u8, drift.exponent.map(|e| format!("{e:.2}")));
+        series.push(Series { colour, dashed: false, markers: false, points: drift.points.clone() });
+        let grows = exponent.as_ref().map_or_else(String::new, |e| format!(", grows like $t^{{{e}}}$"));
+        let label = format!("{}{grows}", drift.method);
+        legend.push(LegendEntry { class: format!("line-{colour}"), marker: None, label });
+        let (periods, error) = drift.points.last().copied().unwrap_or_default();
+        rows.push(vec![
+            drift.method.clone(),
+            number(periods.round(), 3),
+            format!("{error:.1e}"),
+            exponent.unwrap_or_default(),
+            number(drift.seconds_per_period * 1e6, 3),
+        ]);
+    }
+    let name = if scene == "free" { "The free body" } else { "The top" };
+    let title = format!("{name}: how {constant} is kept");
+    let caption = "Root mean square of the relative error over the members of an ensemble, against the time in periods, in \
+        machine numbers. A method that keeps the constant but for rounding lets its error wander, like the square root of \
+        the time; a truncation error grows with the time itself."
+        .to_owned();
+    let svg = plot(&title, &x, &y, &series)?;
+    let head = ["method", "periods", "error", "exponent", "µs a period"].map(String::from).to_vec();
+    let id = format!("drift-{scene}-{}", constant.trim_matches('|'));
+    Ok(Chart { id, title, caption, svg, legend, table: Table { head, rows } })
 }

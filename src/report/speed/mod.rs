@@ -1,6 +1,8 @@
 //! `speed.html` and `speed.json`: what accuracy costs in each scene, model by model.
 
 mod chart;
+#[cfg(test)]
+mod tests;
 mod view;
 
 use std::path::Path;
@@ -11,6 +13,7 @@ use tera::{Context, Tera};
 use super::write::pair;
 use super::{ReportError, Written};
 use crate::scene::Scene;
+use crate::scene::drift::Drift;
 use crate::scene::speed::{Pick, Run, Sweep, front};
 
 /// The version of `speed.json`. It rises when a field changes its meaning or goes.
@@ -50,11 +53,32 @@ impl Measured {
     }
 }
 
+/// What the page tells.
+#[derive(Clone, Debug)]
+pub struct Speed {
+    /// The scenes.
+    pub scenes: Vec<Measured>,
+    /// How constants are kept over many periods.
+    pub drifts: Vec<Drift>,
+}
+
 #[derive(Serialize)]
 struct Data<'a> {
     schema: u32,
     kenzan: &'static str,
     scenes: Vec<SceneData<'a>>,
+    drifts: Vec<DriftData<'a>>,
+}
+
+#[derive(Serialize)]
+struct DriftData<'a> {
+    scene: &'static str,
+    method: &'a str,
+    constant: &'static str,
+    periods: Vec<f64>,
+    relative_error: Vec<f64>,
+    exponent: Option<f64>,
+    seconds_per_period: f64,
 }
 
 #[derive(Serialize)]
@@ -94,8 +118,19 @@ struct PickData<'a> {
 ///
 /// # Errors
 /// [`ReportError::Json`]
-pub fn json(scenes: &[Measured]) -> Result<String, ReportError> {
-    let data = Data { schema: SCHEMA, kenzan: env!("CARGO_PKG_VERSION"), scenes: scenes.iter().map(data).collect() };
+pub fn json(speed: &Speed) -> Result<String, ReportError> {
+    let drift = |d: &'_ Drift| -> (Vec<f64>, Vec<f64>) { d.points.iter().copied().unzip() };
+    let drifts = speed.drifts.iter().map(|d| {
+        let (periods, relative_error) = drift(d);
+        let Drift { scene, constant, exponent, seconds_per_period, .. } = *d;
+        DriftData { scene, method: &d.method, constant, periods, relative_error, exponent, seconds_per_period }
+    });
+    let data = Data {
+        schema: SCHEMA,
+        kenzan: env!("CARGO_PKG_VERSION"),
+        scenes: speed.scenes.iter().map(data).collect(),
+        drifts: drifts.collect(),
+    };
     Ok(serde_json::to_string_pretty(&data)? + "\n")
 }
 
@@ -141,10 +176,10 @@ fn data(measured: &Measured) -> SceneData<'_> {
 ///
 /// # Errors
 /// [`ReportError::Template`]: a template does not fit the data, which is a defect of Kenzan.
-pub fn html(scenes: &[Measured]) -> Result<String, ReportError> {
+pub fn html(speed: &Speed) -> Result<String, ReportError> {
     let mut tera = Tera::new();
     tera.add_raw_templates(TEMPLATES)?;
-    let mut context = Context::from_serialize(&view::page(scenes)?)?;
+    let mut context = Context::from_serialize(&view::page(speed))?;
     context.insert("style", STYLE);
     Ok(tera.render("speed.html", &context)?)
 }
@@ -153,8 +188,21 @@ pub fn html(scenes: &[Measured]) -> Result<String, ReportError> {
 ///
 /// # Errors
 /// [`ReportError`]
-pub fn write(scenes: &[Measured], out: &Path) -> Result<Written, ReportError> {
-    pair(out, "speed", &html(scenes)?, &json(scenes)?)
+pub fn write(speed: &Speed, out: &Path) -> Result<Written, ReportError> {
+    pair(out, "speed", &html(speed)?, &json(speed)?)
+}
+
+/// How fast the constants' errors grow, in plain text.
+pub fn growth(drifts: &[Drift]) -> String {
+    let line = |d: &Drift| {
+        let (periods, error) = d.points.last().copied().unwrap_or_default();
+        let exponent = d.exponent.map_or_else(|| "?".into(), |e| format!("{e:.2}"));
+        format!(
+            "{:<5} {:<38} {:<7} {error:.1e} after {periods:.0} periods, grows like t^{exponent}\n",
+            d.scene, d.method, d.constant
+        )
+    };
+    drifts.iter().map(line).collect()
 }
 
 /// What a scene takes for each error asked for, in plain text.

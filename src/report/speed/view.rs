@@ -4,14 +4,15 @@ use serde::Serialize;
 
 use super::super::math::Renderer;
 use super::super::text::number;
-use super::super::{ReportError, view_charts};
-use super::{Measured, chart};
+use super::super::view_charts;
+use super::{Measured, Speed, chart};
 use crate::scene::speed::Pick;
 
 #[derive(Serialize)]
 pub(super) struct Page {
     version: &'static str,
     scenes: Vec<Section>,
+    drifts: Vec<view_charts::View>,
 }
 
 #[derive(Serialize)]
@@ -51,10 +52,12 @@ struct Row {
     with_choice: String,
 }
 
-pub(super) fn page(scenes: &[Measured]) -> Result<Page, ReportError> {
+pub(super) fn page(speed: &Speed) -> Page {
     let renderer = Renderer::new();
-    let scenes = scenes.iter().map(|m| section(m, &renderer)).collect();
-    Ok(Page { version: env!("CARGO_PKG_VERSION"), scenes })
+    let scenes = speed.scenes.iter().map(|m| section(m, &renderer)).collect();
+    let drifts = chart::drifts(&speed.drifts).into_iter().filter_map(Result::ok);
+    let drifts = drifts.map(|c| view_charts::view(&c, &renderer)).collect();
+    Page { version: env!("CARGO_PKG_VERSION"), scenes, drifts }
 }
 
 fn section(measured: &Measured, renderer: &Renderer) -> Section {

@@ -11,7 +11,7 @@ const fn parameter(name: &'static str, unit: &'static str, default: f64, about: 
 /// The parameters. The orbit is that of the planetary fact sheet of the NSSDC (a sidereal year of 87.969 days, e = 0.2056);
 /// `epsilon` is Margot et al., J. Geophys. Res. 117 (2012) E00L09: (B - A)/C_m = 2.18e-4 for the mantle times C_m/C = 0.45.
 pub const PARAMETERS: &[Parameter] = &[
-    parameter("n", "rad/s", 8.266_85e-7, "mean motion of the orbit"),
+    parameter("n", "rad/yr", 26.088, "mean motion of the orbit"),
     parameter("e", "1", 0.2056, "eccentricity of the orbit"),
     parameter("epsilon", "1", 9.8e-5, "(B - A)/C, the equatorial asymmetry of the moments of inertia"),
     parameter("l_0", "rad", 0.0, "mean anomaly at t = 0"),

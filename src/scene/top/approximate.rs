@@ -5,7 +5,7 @@ use super::start::{ENERGY, L_Z, PHI, PSI, Start, THETA};
 use crate::number::{Func, Number};
 
 /// A motion of constant inclination.
-fn steady<N: Number>(task: &Task, cx: &N::Context, start: &Start<N>, rate: &N) -> Motion<N> {
+pub(super) fn steady<N: Number>(task: &Task, cx: &N::Context, start: &Start<N>, rate: &N) -> Motion<N> {
     let psi_rate = start.spin.minus(&rate.times(&start.cos));
     let steady = Start { phi_rate: rate.clone(), theta_rate: rate.like(0.0), ..start.clone() };
     task.tabulate(cx, N::clone, |t, q| match q {

@@ -12,6 +12,7 @@
 use super::super::jacobi::{Characteristic, Oscillation, Turning, phase};
 use super::super::value::V;
 use super::super::{About, Kind, Model, Motion, Precise, SceneError, Task};
+use super::approximate::steady;
 use super::start::{ENERGY, L_Z, PHI, PSI, Start, THETA, U};
 use crate::number::Number;
 
@@ -200,12 +201,31 @@ fn passes_no_pole<W: Number>(cubic: &Cubic<W>, roots: &Roots<W>) -> Result<(), S
     let still = roots.below[0].is_zero() || roots.above[1].is_zero();
     let hanging = cubic.ahead.is_zero();
     if upright || hanging || still {
-        return Err(SceneError::regime(
-            "the axis passes through the vertical, where phi and psi are undefined",
-            "ask for theta or u, or take the model `quaternion`, which joins the angles across the passage",
-        ));
+        return Err(vertical());
     }
     Ok(())
+}
+
+fn vertical() -> SceneError {
+    SceneError::regime(
+        "the axis passes through the vertical, where phi and psi are undefined",
+        "ask for theta or u, or take the model `quaternion`, which joins the angles across the passage",
+    )
+}
+
+/// The motion of an axis that stays where it is: a double root of f at the start, upright or hanging or in steady
+/// precession.
+fn at_rest<N: Precise>(task: &Task, cx: &N::Context) -> Result<Option<Motion<N>>, SceneError> {
+    let wide = Start::<N::Wide>::read(task, &N::wide(cx))?;
+    let [value, slope, _] = Cubic::new(&wide).at;
+    if !(value.is_zero() && slope.is_zero()) {
+        return Ok(None);
+    }
+    if wide.sin.log2_abs() == f64::NEG_INFINITY && task.wants(&[PHI, PSI]) {
+        return Err(vertical());
+    }
+    let start = Start::<N>::read(task, cx)?;
+    Ok(Some(steady(task, cx, &start, &start.phi_rate)))
 }
 
 /// The closed form.
@@ -223,6 +243,9 @@ impl Model for Closed {
     }
 
     fn motion<N: Precise>(&self, task: &Task, cx: &N::Context) -> Result<Motion<N>, SceneError> {
+        if let Some(rest) = at_rest(task, cx)? {
+            return Ok(rest);
+        }
         let solution = Solution::<N>::new(task, cx)?;
         let Solution { oscillation, turnings, below, above, swing, spin, start } = &solution;
         let mut point = oscillation.room();

@@ -7,7 +7,7 @@ use super::start::{ENERGY, L_Z, PHI, PSI, Start, THETA, U};
 use crate::number::{Func, Number};
 
 /// The axis upright or hanging: its Euler angles say nothing.
-fn singular(model: &str) -> SceneError {
+pub fn singular(model: &str) -> SceneError {
     SceneError::regime(
         format!("the axis is upright or hanging at the start, where the model `{model}` is singular"),
         "use the model `quaternion`, which has no singular states",
@@ -126,6 +126,50 @@ fn reduced(d: Term<'_>) -> Term<'_> {
     kappa - slope * d - b * (d.int(3) / d.int(2)) * d.square()
 }
 
+/// The state of the equations in Euler angles.
+pub const ANGLES: [&str; 6] = ["theta", "phi", "psi", "dtheta", "dphi", "dpsi"];
+
+/// Their rates.
+pub fn in_angles([theta, .., dtheta, dphi, dpsi]: [Term<'_>; 6]) -> [Term<'_>; 6] {
+    let [a, pull] = ["a", "pull"].map(|name| theta.symbol(name));
+    let (sin, cos) = theta.sin_cos();
+    let along = dphi * cos;
+    let theta_bend = sin * (dphi * (along - a) + pull);
+    let phi_bend = dtheta * (a - theta.int(2) * along) / sin;
+    [dtheta, dphi, dpsi, theta_bend, phi_bend, dphi * dtheta * sin - phi_bend * cos]
+}
+
+impl<N: Number> Start<N> {
+    /// The initial state in Euler angles.
+    pub fn in_angles(&self) -> [N; 6] {
+        let psi_rate = self.spin.minus(&self.phi_rate.times(&self.cos));
+        [&self.theta, &self.phi, &self.psi, &self.theta_rate, &self.phi_rate, &psi_rate].map(N::clone)
+    }
+
+    /// A quantity of a state in Euler angles.
+    pub fn of_angles(&self, task: &Task, y: &[N], q: usize) -> N {
+        match q {
+            THETA => y[0].clone(),
+            PHI => y[1].clone(),
+            PSI => y[2].clone(),
+            U => y[0].apply(Func::Cos),
+            _ => {
+                // The spin as it is now: its drift is the integrator's.
+                let (sin, cos) = (y[0].apply(Func::Sin), y[0].apply(Func::Cos));
+                let spin = y[4].times(&cos).plus(&y[5]);
+                let a = self.a.times(&spin).over(&self.spin);
+                let a = if a.is_finite() { a } else { self.a.clone() };
+                let (theta_rate, phi_rate) = (y[3].clone(), y[4].clone());
+                let now = Start { a, spin, sin, cos, theta_rate, phi_rate, ..self.clone() };
+                match q {
+                    L_Z => now.momentum(&now.vertical()),
+                    _ => now.energy(task, &now.axis_square(), &now.cos),
+                }
+            }
+        }
+    }
+}
+
 /// Euler's equations in Euler angles.
 pub struct Euler;
 
@@ -145,40 +189,12 @@ impl Model for Euler {
         if s.sin.log2_abs() == f64::NEG_INFINITY {
             return Err(singular("euler"));
         }
-        let flow = Flow::new(["theta", "phi", "psi", "dtheta", "dphi", "dpsi"], |[theta, .., dtheta, dphi, dpsi]| {
-            let [a, pull] = ["a", "pull"].map(|name| theta.symbol(name));
-            let (sin, cos) = theta.sin_cos();
-            let along = dphi * cos;
-            let theta_bend = sin * (dphi * (along - a) + pull);
-            let phi_bend = dtheta * (a - theta.int(2) * along) / sin;
-            [dtheta, dphi, dpsi, theta_bend, phi_bend, dphi * dtheta * sin - phi_bend * cos]
-        })?;
-        let psi_rate = s.spin.minus(&s.phi_rate.times(&s.cos));
-        let start = [&s.theta, &s.phi, &s.psi, &s.theta_rate, &s.phi_rate, &psi_rate].map(N::clone);
+        let flow = Flow::new(ANGLES, in_angles)?;
         let parameters = flow.parameters(&[("a", s.a.clone()), ("pull", s.pull.clone())]);
+        let start = s.in_angles();
         let mut motion = Motion::begin(task);
         let cost = follow(&flow.series, &parameters, &start, task.times, (task.tolerance, false), |stop| {
-            let y = stop.y;
-            motion.push(task, |q| match q {
-                THETA => y[0].clone(),
-                PHI => y[1].clone(),
-                PSI => y[2].clone(),
-                U => y[0].apply(Func::Cos),
-                _ => {
-                    // The spin as it is now: its drift is the integrator's.
-                    let (sin, cos) = (y[0].apply(Func::Sin), y[0].apply(Func::Cos));
-                    let spin = y[4].times(&cos).plus(&y[5]);
-                    let a = s.a.times(&spin).over(&s.spin);
-                    let a = if a.is_finite() { a } else { s.a.clone() };
-                    let now =
-                        Start { a, spin, sin, cos, theta_rate: y[3].clone(), phi_rate: y[4].clone(), ..s.clone() };
-                    if q == L_Z {
-                        now.momentum(&now.vertical())
-                    } else {
-                        now.energy(task, &now.axis_square(), &now.cos)
-                    }
-                }
-            });
+            motion.push(task, |q| s.of_angles(task, stop.y, q));
         })?;
         Ok(Motion { cost, ..motion })
     }
