@@ -174,7 +174,7 @@ mod tests {
             r"\sin(2 a) \sqrt{1 - \sin^2 (a b)}",
             r"(-3)(-a)(b - 2) + (-k)^3",
             r"2 \arctan \sqrt{\frac{1 - a}{1 + a}} e^{-a} \left| b - k \right|",
-            r"\operatorname{sn}(a, k)^2 \operatorname{dn}(a b, k)",
+            r"\operatorname{sn}^2(a, k) \operatorname{dn}(a b, k)",
             r"3 \cdot \frac{1}{2} \cdot 4^{a}",
         ] {
             let mut formula = computed_from(&book, 0, latex, Deadline::NEVER).unwrap();
