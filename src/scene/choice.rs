@@ -166,12 +166,14 @@ fn check(request: &Request) -> Result<(), SceneError> {
             "ask for a positive error, 1e-9 for nine decimals",
         ));
     }
-    let named = scene.parameters.iter().zip(parameters);
-    for (parameter, value) in named.filter(|(_, value)| !value.is_finite()) {
-        let what = format!("the parameter {} is {value}", parameter.name);
-        return Err(SceneError::parameter(what, "give it a finite value"));
+    let mut named = scene.parameters.iter().zip(parameters);
+    match named.find(|(_, value)| !value.is_finite()) {
+        Some((parameter, value)) => {
+            let what = format!("the parameter {} is {value}", parameter.name);
+            Err(SceneError::parameter(what, "give it a finite value"))
+        }
+        None => Ok(()),
     }
-    Ok(())
 }
 
 /// Values that a number type cannot even hold to the error asked for are not computed in it.
