@@ -11,7 +11,7 @@ fn end<N: Number>(problem: &Problem, method: &mut dyn Method<N>, steps: usize, c
 }
 
 /// The order that the errors show between some number of steps and twice as many, where they are small enough to show it.
-fn measured_order<N: Number>(error: impl Fn(usize) -> f64, order: u32) -> (f64, usize) {
+fn measured_order(error: impl Fn(usize) -> f64, order: u32) -> (f64, usize) {
     let small = 10f64.powf(-4.0 - f64::from(order));
     let mut steps = 32;
     while error(steps) > small {
@@ -32,7 +32,7 @@ fn orders_are_measured_on_every_problem() {
             let method = || methods(&rates, problem.start.len(), &()).swap_remove(index);
             let error = |steps| distance(&end(&problem, &mut *method(), steps, &()), &exact);
             let (name, claimed) = (method().name(), method().order());
-            let (order, steps) = measured_order::<Df64>(error, claimed);
+            let (order, steps) = measured_order(error, claimed);
             println!("{name} on {}: order {order:.3} from {steps} steps on", problem.name);
             assert!((order - f64::from(claimed)).abs() < 0.35, "{name} on {}: {order}", problem.name);
         }

@@ -50,7 +50,8 @@ fn the_earth_precesses_and_nutates_as_observed() {
 /// The errors fall with the torque: that of the precession alone with its first power, that of the series with its second.
 #[test]
 fn errors_fall_with_the_torque_at_their_order() {
-    let cases: [(&str, &[(&str, f64)], f64); 3] = [
+    type Set = &'static [(&'static str, f64)];
+    let cases: [(&str, Set, f64); 3] = [
         ("precession", &[], 1.0),
         // The Sun alone: no slow node in the fast terms.
         ("nutation", &[("moon", 0.0)], 2.0),
