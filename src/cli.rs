@@ -114,6 +114,12 @@ enum Format {
     Human,
     /// The report as JSON.
     Json,
+    /// JUnit's XML: a test for each equation.
+    Junit,
+    /// SARIF: the equations that are not as expected, and known misprints as notes.
+    Sarif,
+    /// GitHub's workflow commands, which annotate the lines of the notes.
+    Github,
 }
 
 /// What is printed, and what the reports leave out.
@@ -243,6 +249,9 @@ fn print(run: &Run, printed: Printed, written: &report::Written) -> miette::Resu
             format!("{summary}\nreport: {}\n", written.html.display())
         }
         Format::Json => report::json::render(run, printed.options)?,
+        Format::Junit => report::annotations::junit(run, printed.options.times)?,
+        Format::Sarif => report::annotations::sarif(run)?,
+        Format::Github => report::annotations::github(run),
     };
     print_text(&text);
     Ok(())

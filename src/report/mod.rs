@@ -2,6 +2,7 @@
 //!
 //! The same run gives the same bytes, times apart: [`Options::times`] leaves those out.
 
+pub mod annotations;
 pub mod charts;
 mod counts;
 mod diff;
@@ -93,6 +94,10 @@ pub enum ReportError {
     #[error("the report's template failed")]
     #[diagnostic(help("this is a defect of Kenzan: please report it with the notes that caused it"))]
     Template(#[from] tera::Error),
+    /// The data could not be written as XML: a defect of Kenzan.
+    #[error("the report could not be written as JUnit's XML")]
+    #[diagnostic(help("this is a defect of Kenzan: please report it with the notes that caused it"))]
+    Junit(#[from] quick_junit::SerializeError),
     /// The data could not be written as JSON: a defect of Kenzan.
     #[error("the report could not be written as JSON")]
     #[diagnostic(help("this is a defect of Kenzan: please report it with the notes that caused it"))]

@@ -99,6 +99,14 @@ fn share(counts: Counts, verdict: Verdict, paint: Paint) -> String {
     paint.verdict(verdict, &format!("{} {} {}{errata}", symbol(verdict), counts.with(verdict), word(verdict)))
 }
 
+/// What the summary says of one equation, in plain text.
+pub(super) fn of_one(document: &DocumentReport, j: &Judgement) -> String {
+    let mut text = String::new();
+    // Writing to a string cannot fail.
+    let _ = line(&mut text, document, j, Paint { colour: false });
+    text.lines().map(|line| line.trim_start().to_owned()).collect::<Vec<_>>().join("\n")
+}
+
 fn is_shown(j: &Judgement) -> bool {
     matches!(j.verdict, Verdict::Fails | Verdict::Undecided | Verdict::Unreadable)
         || !j.as_expected

@@ -27,6 +27,34 @@ fn terminal_snapshot() {
 }
 
 #[test]
+fn junit_snapshot() {
+    insta::assert_snapshot!(annotations::junit(&fixture::run(), false).unwrap());
+}
+
+#[test]
+fn sarif_snapshot() {
+    insta::assert_snapshot!(unversioned(&annotations::sarif(&fixture::run()).unwrap()));
+}
+
+#[test]
+fn github_snapshot() {
+    insta::assert_snapshot!(annotations::github(&fixture::run()));
+}
+
+#[test]
+fn notes_cannot_add_commands_to_a_workflow() {
+    let mut run = fixture::run();
+    run.documents[0].path = "a,line=1::x\n::error::b.md".into();
+    run.documents[0].equations.iter_mut().for_each(|e| e.as_expected = false);
+    run.documents[0].equations[0].label = "1\n::error::c".into();
+    run.documents.truncate(1);
+    let text = annotations::github(&run);
+    assert_eq!(text.lines().count(), run.documents[0].equations.len() + run.documents[0].problems.len());
+    let start = "::error file=a%2Cline=1%3A%3Ax%0A%3A%3Aerror%3A%3Ab.md";
+    assert!(text.lines().all(|line| line.starts_with(start)), "{text}");
+}
+
+#[test]
 fn the_terminal_has_colour_only_where_asked_for() {
     let run = fixture::run();
     assert!(terminal::render(&run, true, UNTIMED).contains("\x1b[1;31m✗ (56)\x1b[0m"));
