@@ -128,7 +128,9 @@ fn all_models_of_a_scene_agree() {
             let all: Vec<usize> = (0..scene.quantities.len()).collect();
             let truth = truth(scene, &parameters(scene, &case), &all, &times(case.until)).unwrap();
             for model in scene.models.iter().filter(|m| m.about().kind != Kind::Approximation) {
-                for arithmetic in ladder() {
+                // In many bits an implicit method takes minutes; the integrators' own suite has it there.
+                let implicit = model.about().name == "gauss-legendre";
+                for arithmetic in ladder().into_iter().filter(|a| !implicit || a.bits() <= 104) {
                     agrees(scene, &case, *model, arithmetic, &truth);
                 }
             }
