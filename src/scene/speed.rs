@@ -13,6 +13,12 @@ const TIMED_FOR: Duration = Duration::from_millis(20);
 /// The most runs that are timed.
 const MOST_RUNS: usize = 50;
 
+/// A model that took longer is not run at smaller tolerances.
+const PATIENCE: f64 = 0.5;
+/// Below this tolerance only scenes with a closed form are measured: others have nothing to measure against in reasonable
+/// time.
+const LEAST_WITHOUT_CLOSED: f64 = 1e-31;
+
 /// What is computed, and how exactly.
 #[derive(Clone, Debug)]
 pub struct Sweep {
@@ -111,7 +117,8 @@ impl Sweep {
         let mut runs = Vec::new();
         let mut done: Vec<(&str, Arithmetic)> = Vec::new();
         let mut yardsticks: Vec<(Arithmetic, Yardstick)> = Vec::new();
-        for &tolerance in &self.tolerances {
+        let closed = self.scene.models.iter().any(|m| m.about().kind == Kind::Exact);
+        for &tolerance in self.tolerances.iter().filter(|t| closed || **t >= LEAST_WITHOUT_CLOSED) {
             let Some(arithmetic) = arithmetic(tolerance) else { continue };
             let known = yardsticks.iter().position(|(of, _)| *of == arithmetic);
             let at = match known {
@@ -126,7 +133,8 @@ impl Sweep {
                 let about = model.about();
                 let once = about.kind != Kind::Integrated;
                 let rough = about.kind == Kind::Approximation && arithmetic != Arithmetic::Machine;
-                if rough || once && done.contains(&(about.name, arithmetic)) {
+                let slow = runs.iter().any(|r: &Run| r.model.name == about.name && r.seconds > PATIENCE);
+                if rough || slow || once && done.contains(&(about.name, arithmetic)) {
                     continue;
                 }
                 done.push((about.name, arithmetic));
