@@ -70,6 +70,13 @@ pub struct Parameter {
     pub about: &'static str,
 }
 
+impl Parameter {
+    /// A parameter: its name, unit, default, and one line.
+    const fn new(name: &'static str, unit: &'static str, default: f64, about: &'static str) -> Self {
+        Parameter { name, unit, default, about }
+    }
+}
+
 /// A function of time that a scene can be asked for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Quantity {
@@ -79,6 +86,13 @@ pub struct Quantity {
     pub unit: &'static str,
     /// One line.
     pub about: &'static str,
+}
+
+impl Quantity {
+    /// A quantity: its name, unit, and one line.
+    const fn new(name: &'static str, unit: &'static str, about: &'static str) -> Self {
+        Quantity { name, unit, about }
+    }
 }
 
 /// All scenes.

@@ -4,38 +4,30 @@ use super::super::value::V;
 use super::super::{Parameter, Quantity, SceneError, Task};
 use crate::number::Number;
 
-const fn parameter(name: &'static str, unit: &'static str, default: f64, about: &'static str) -> Parameter {
-    Parameter { name, unit, default, about }
-}
-
 /// The parameters: the mean elements of J2000.0 of Meeus, *Astronomical Algorithms* (2nd ed. 1998), chapters 22 and 47; the
 /// flattening of Wahr's Earth, *Geophys. J. R. astr. Soc.* 64 (1981), C/(C - A) = 305.5; times are from J2000.0 on.
 pub const PARAMETERS: &[Parameter] = &[
-    parameter("omega", "rad/yr", 2301.22, "rate of the Earth's rotation"),
-    parameter("H", "1", 0.003_273_8, "(C - A)/C, the dynamical flattening"),
-    parameter("moon", "1", 0.012_150_6, "share of the Moon in the mass of Earth and Moon"),
-    parameter("n_moon", "rad/yr", 83.9969, "sidereal mean motion of the Moon"),
-    parameter("i", "rad", 0.089_804, "inclination of the Moon's orbit"),
-    parameter("n_node", "rad/yr", -0.337_571, "rate of its ascending node"),
-    parameter("node_0", "rad", 2.182_44, "longitude of the node at t = 0"),
-    parameter("moon_0", "rad", 1.627_905, "the Moon's distance from the node at t = 0"),
-    parameter("sun", "1", 0.999_997, "share of the Sun in the mass of Sun and Earth"),
-    parameter("n_sun", "rad/yr", 6.283_08, "sidereal mean motion of the Sun"),
-    parameter("sun_0", "rad", 4.895_06, "longitude of the Sun at t = 0"),
-    parameter("obliquity_0", "rad", 0.409_093, "obliquity of the ecliptic at t = 0"),
-    parameter("h_0", "rad", 0.0, "longitude of the ascending node of the equator at t = 0"),
+    Parameter::new("omega", "rad/yr", 2301.22, "rate of the Earth's rotation"),
+    Parameter::new("H", "1", 0.003_273_8, "(C - A)/C, the dynamical flattening"),
+    Parameter::new("moon", "1", 0.012_150_6, "share of the Moon in the mass of Earth and Moon"),
+    Parameter::new("n_moon", "rad/yr", 83.9969, "sidereal mean motion of the Moon"),
+    Parameter::new("i", "rad", 0.089_804, "inclination of the Moon's orbit"),
+    Parameter::new("n_node", "rad/yr", -0.337_571, "rate of its ascending node"),
+    Parameter::new("node_0", "rad", 2.182_44, "longitude of the node at t = 0"),
+    Parameter::new("moon_0", "rad", 1.627_905, "the Moon's distance from the node at t = 0"),
+    Parameter::new("sun", "1", 0.999_997, "share of the Sun in the mass of Sun and Earth"),
+    Parameter::new("n_sun", "rad/yr", 6.283_08, "sidereal mean motion of the Sun"),
+    Parameter::new("sun_0", "rad", 4.895_06, "longitude of the Sun at t = 0"),
+    Parameter::new("obliquity_0", "rad", 0.409_093, "obliquity of the ecliptic at t = 0"),
+    Parameter::new("h_0", "rad", 0.0, "longitude of the ascending node of the equator at t = 0"),
 ];
-
-const fn quantity(name: &'static str, unit: &'static str, about: &'static str) -> Quantity {
-    Quantity { name, unit, about }
-}
 
 /// The quantities.
 pub const QUANTITIES: &[Quantity] = &[
-    quantity("h", "rad", "longitude of the ascending node of the equator on the ecliptic"),
-    quantity("obliquity", "rad", "inclination of the equator to the ecliptic"),
-    quantity("nutation_longitude", "rad", "h without h_0 and the precession at the rate of (463) at obliquity_0"),
-    quantity("nutation_obliquity", "rad", "obliquity less obliquity_0"),
+    Quantity::new("h", "rad", "longitude of the ascending node of the equator on the ecliptic"),
+    Quantity::new("obliquity", "rad", "inclination of the equator to the ecliptic"),
+    Quantity::new("nutation_longitude", "rad", "h without h_0 and the precession at the rate of (463) at obliquity_0"),
+    Quantity::new("nutation_obliquity", "rad", "obliquity less obliquity_0"),
 ];
 
 /// A body that pulls at the Earth's equator.

@@ -4,18 +4,14 @@ use super::super::value::V;
 use super::super::{Parameter, Quantity, SceneError, Task};
 use crate::number::Number;
 
-const fn parameter(name: &'static str, unit: &'static str, default: f64, about: &'static str) -> Parameter {
-    Parameter { name, unit, default, about }
-}
-
 /// The parameters.
 pub const PARAMETERS: &[Parameter] = &[
-    parameter("A", "kg m^2", 1.0, "principal moment of inertia about the first axis"),
-    parameter("B", "kg m^2", 2.0, "principal moment of inertia about the second axis"),
-    parameter("C", "kg m^2", 3.0, "principal moment of inertia about the third axis"),
-    parameter("omega_1", "rad/s", 0.4, "angular velocity about the first axis at t = 0"),
-    parameter("omega_2", "rad/s", 0.3, "angular velocity about the second axis at t = 0"),
-    parameter("omega_3", "rad/s", 1.0, "angular velocity about the third axis at t = 0"),
+    Parameter::new("A", "kg m^2", 1.0, "principal moment of inertia about the first axis"),
+    Parameter::new("B", "kg m^2", 2.0, "principal moment of inertia about the second axis"),
+    Parameter::new("C", "kg m^2", 3.0, "principal moment of inertia about the third axis"),
+    Parameter::new("omega_1", "rad/s", 0.4, "angular velocity about the first axis at t = 0"),
+    Parameter::new("omega_2", "rad/s", 0.3, "angular velocity about the second axis at t = 0"),
+    Parameter::new("omega_3", "rad/s", 1.0, "angular velocity about the third axis at t = 0"),
 ];
 
 /// Positions of the quantities, after the angular velocity.
@@ -24,22 +20,18 @@ pub const THETA: usize = 7;
 pub const ENERGY: usize = 8;
 pub const MOMENTUM: usize = 9;
 
-const fn quantity(name: &'static str, unit: &'static str, about: &'static str) -> Quantity {
-    Quantity { name, unit, about }
-}
-
 /// The quantities.
 pub const QUANTITIES: &[Quantity] = &[
-    quantity("omega_1", "rad/s", "angular velocity about the first axis"),
-    quantity("omega_2", "rad/s", "angular velocity about the second axis"),
-    quantity("omega_3", "rad/s", "angular velocity about the third axis"),
-    quantity("q_0", "1", "attitude: the scalar part of the quaternion from body axes to inertial axes"),
-    quantity("q_1", "1", "attitude: its first component"),
-    quantity("q_2", "1", "attitude: its second component"),
-    quantity("q_3", "1", "attitude: its third component"),
-    quantity("theta", "rad", "inclination of the third axis from the angular momentum"),
-    quantity("energy", "J", "kinetic energy, conserved"),
-    quantity("G", "kg m^2/s", "length of the angular momentum, conserved"),
+    Quantity::new("omega_1", "rad/s", "angular velocity about the first axis"),
+    Quantity::new("omega_2", "rad/s", "angular velocity about the second axis"),
+    Quantity::new("omega_3", "rad/s", "angular velocity about the third axis"),
+    Quantity::new("q_0", "1", "attitude: the scalar part of the quaternion from body axes to inertial axes"),
+    Quantity::new("q_1", "1", "attitude: its first component"),
+    Quantity::new("q_2", "1", "attitude: its second component"),
+    Quantity::new("q_3", "1", "attitude: its third component"),
+    Quantity::new("theta", "rad", "inclination of the third axis from the angular momentum"),
+    Quantity::new("energy", "J", "kinetic energy, conserved"),
+    Quantity::new("G", "kg m^2/s", "length of the angular momentum, conserved"),
 ];
 
 /// The body and its angular velocity at t = 0, in its principal axes.

@@ -3,9 +3,9 @@
 use super::super::flow::{Flow, Term};
 use super::super::path::follow;
 use super::super::value::V;
-use super::super::{About, Cost, Kind, Model, Motion, Precise, SceneError, Task};
+use super::super::walk::{dormand_prince, least_tolerance};
+use super::super::{About, Kind, Model, Motion, Precise, SceneError, Task};
 use super::start::Start;
-use crate::integrator::Adaptive;
 use crate::number::Number;
 
 /// The averaged equations (494) and (495) by Taylor series: what the model `pendulum` solves in closed form.
@@ -217,26 +217,16 @@ impl Model for RungeKutta {
     }
 
     fn motion<N: Precise>(&self, task: &Task, cx: &N::Context) -> Result<Motion<N>, SceneError> {
-        if N::precision_bits(cx) > 53 {
-            // Order 8 takes too many steps for more digits.
-            return Err(SceneError::NotGiven { model: "dormand-prince", what: "more than f64".into() });
-        }
+        least_tolerance(task, "dormand-prince", 1e-18)?;
         let s = Start::<N>::read(task, cx)?;
         let prepared = Prepared::new(&s);
         let rates = Flow::rates(["anomaly", "x", "v"], spin_orbit, &prepared.named, cx);
-        let driver = Adaptive { max_steps: 10_000_000, ..Adaptive::with_tolerance(task.tolerance.max(1e-15)) };
-        let (mut motion, mut cost) = (Motion::begin(task), Cost { order: 8, ..Cost::default() });
-        let (mut now, mut state) = (N::zero(cx), prepared.first.to_vec());
-        for &t in task.times {
-            let t = N::from_f64(t, cx);
-            let outcome = driver.integrate(&rates, (&now, &state), &t, |_| {})?;
-            cost.steps += outcome.accepted + outcome.refused;
-            (state, now) = (outcome.y, t);
-            let [_, x, v] = &state[..] else { continue };
-            let (t, x, excess) = (V(now.clone()), V(x.clone()), V(v.clone()) * &prepared.scale);
+        let mut motion = Motion::begin(task);
+        let cost = dormand_prince(&rates, prepared.first.to_vec(), task, |t, state| {
+            let [_, x, v] = state else { return };
+            let (t, x, excess) = (V(t.clone()), V(x.clone()), V(v.clone()) * &prepared.scale);
             motion.push(task, |q| s.quantity(q, &t, &x, &excess));
-        }
-        cost.evaluations = 12 * cost.steps;
+        })?;
         Ok(Motion { cost, ..motion })
     }
 }

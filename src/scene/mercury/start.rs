@@ -4,19 +4,15 @@ use super::super::value::V;
 use super::super::{Parameter, Quantity, SceneError, Task};
 use crate::number::Number;
 
-const fn parameter(name: &'static str, unit: &'static str, default: f64, about: &'static str) -> Parameter {
-    Parameter { name, unit, default, about }
-}
-
 /// The parameters. The orbit is that of the planetary fact sheet of the NSSDC (a sidereal year of 87.969 days, e = 0.2056);
 /// `epsilon` is Margot et al., J. Geophys. Res. 117 (2012) E00L09: (B - A)/C_m = 2.18e-4 for the mantle times C_m/C = 0.45.
 pub const PARAMETERS: &[Parameter] = &[
-    parameter("n", "rad/yr", 26.088, "mean motion of the orbit"),
-    parameter("e", "1", 0.2056, "eccentricity of the orbit"),
-    parameter("epsilon", "1", 9.8e-5, "(B - A)/C, the equatorial asymmetry of the moments of inertia"),
-    parameter("l_0", "rad", 0.0, "mean anomaly at t = 0"),
-    parameter("sigma_0", "rad", 0.5, "critical argument at t = 0"),
-    parameter("spin_0", "1", 1.5, "angular velocity of the rotation at t = 0, in units of n"),
+    Parameter::new("n", "rad/yr", 26.088, "mean motion of the orbit"),
+    Parameter::new("e", "1", 0.2056, "eccentricity of the orbit"),
+    Parameter::new("epsilon", "1", 9.8e-5, "(B - A)/C, the equatorial asymmetry of the moments of inertia"),
+    Parameter::new("l_0", "rad", 0.0, "mean anomaly at t = 0"),
+    Parameter::new("sigma_0", "rad", 0.5, "critical argument at t = 0"),
+    Parameter::new("spin_0", "1", 1.5, "angular velocity of the rotation at t = 0, in units of n"),
 ];
 
 /// Positions of the quantities.
@@ -25,16 +21,12 @@ pub const LIBRATION: usize = 1;
 pub const PSI: usize = 2;
 pub const SPIN: usize = 3;
 
-const fn quantity(name: &'static str, unit: &'static str, about: &'static str) -> Quantity {
-    Quantity { name, unit, about }
-}
-
 /// The quantities.
 pub const QUANTITIES: &[Quantity] = &[
-    quantity("sigma", "rad", "critical argument 3 l - 2 psi"),
-    quantity("libration", "rad", "psi - (3/2) l, the rotation beside the resonant one"),
-    quantity("psi", "rad", "rotation angle of the axis of the least moment from the direction of the perihelion"),
-    quantity("spin", "1", "angular velocity of the rotation in units of n; 3/2 at the resonance"),
+    Quantity::new("sigma", "rad", "critical argument 3 l - 2 psi"),
+    Quantity::new("libration", "rad", "psi - (3/2) l, the rotation beside the resonant one"),
+    Quantity::new("psi", "rad", "rotation angle of the axis of the least moment from the direction of the perihelion"),
+    Quantity::new("spin", "1", "angular velocity of the rotation in units of n; 3/2 at the resonance"),
 ];
 
 /// The orbit, the body and its rotation at t = 0.

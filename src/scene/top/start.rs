@@ -14,21 +14,17 @@ const PHI_RATE: usize = 6;
 const PHI_0: usize = 7;
 const PSI_0: usize = 8;
 
-const fn parameter(name: &'static str, unit: &'static str, default: f64, about: &'static str) -> Parameter {
-    Parameter { name, unit, default, about }
-}
-
 /// The parameters.
 pub const PARAMETERS: &[Parameter] = &[
-    parameter("I_0", "kg m^2", 1.0, "moment of inertia across the axis, about the fixed point"),
-    parameter("I_1", "kg m^2", 0.5, "moment of inertia about the axis"),
-    parameter("mgl", "N m", 1.0, "torque of gravity when the axis lies level"),
-    parameter("omega_zeta", "rad/s", 5.0, "spin: the angular velocity about the axis, a constant"),
-    parameter("theta_0", "rad", std::f64::consts::FRAC_PI_3, "inclination of the axis from the vertical at t = 0"),
-    parameter("theta_rate", "rad/s", 0.0, "rate of inclination at t = 0"),
-    parameter("phi_rate", "rad/s", 0.0, "rate of precession at t = 0"),
-    parameter("phi_0", "rad", 0.0, "precession angle at t = 0"),
-    parameter("psi_0", "rad", 0.0, "rotation about the axis at t = 0"),
+    Parameter::new("I_0", "kg m^2", 1.0, "moment of inertia across the axis, about the fixed point"),
+    Parameter::new("I_1", "kg m^2", 0.5, "moment of inertia about the axis"),
+    Parameter::new("mgl", "N m", 1.0, "torque of gravity when the axis lies level"),
+    Parameter::new("omega_zeta", "rad/s", 5.0, "spin: the angular velocity about the axis, a constant"),
+    Parameter::new("theta_0", "rad", std::f64::consts::FRAC_PI_3, "inclination of the axis from the vertical at t = 0"),
+    Parameter::new("theta_rate", "rad/s", 0.0, "rate of inclination at t = 0"),
+    Parameter::new("phi_rate", "rad/s", 0.0, "rate of precession at t = 0"),
+    Parameter::new("phi_0", "rad", 0.0, "precession angle at t = 0"),
+    Parameter::new("psi_0", "rad", 0.0, "rotation about the axis at t = 0"),
 ];
 
 /// Positions of the quantities.
@@ -39,18 +35,14 @@ pub const U: usize = 3;
 pub const L_Z: usize = 4;
 pub const ENERGY: usize = 5;
 
-const fn quantity(name: &'static str, unit: &'static str, about: &'static str) -> Quantity {
-    Quantity { name, unit, about }
-}
-
 /// The quantities.
 pub const QUANTITIES: &[Quantity] = &[
-    quantity("theta", "rad", "inclination of the axis from the vertical, from 0 to pi"),
-    quantity("phi", "rad", "precession angle, continuous beyond a turn"),
-    quantity("psi", "rad", "rotation about the axis, continuous beyond a turn"),
-    quantity("u", "1", "cos theta"),
-    quantity("L_z", "kg m^2/s", "vertical component of the angular momentum, conserved"),
-    quantity("energy", "J", "mechanical energy, zero potential at the fixed point, conserved"),
+    Quantity::new("theta", "rad", "inclination of the axis from the vertical, from 0 to pi"),
+    Quantity::new("phi", "rad", "precession angle, continuous beyond a turn"),
+    Quantity::new("psi", "rad", "rotation about the axis, continuous beyond a turn"),
+    Quantity::new("u", "1", "cos theta"),
+    Quantity::new("L_z", "kg m^2/s", "vertical component of the angular momentum, conserved"),
+    Quantity::new("energy", "J", "mechanical energy, zero potential at the fixed point, conserved"),
 ];
 
 /// The top and its initial state.

@@ -4,41 +4,38 @@ use super::super::value::V;
 use super::super::{Parameter, Quantity, SceneError, Task};
 use crate::number::{Func, Number};
 
-const fn parameter(name: &'static str, unit: &'static str, default: f64, about: &'static str) -> Parameter {
-    Parameter { name, unit, default, about }
-}
-
 /// The parameters. `H`, `alpha` and `J_0` are those of (536) and (537); `nu` is -1/434 of `G/A`, by (537);
 /// the asymmetry is that of the Earth's gravity field, C_22 and S_22 of EGM96.
 pub const PARAMETERS: &[Parameter] = &[
-    parameter("Omega", "rad/yr", 2301.22, "G/C, the rate of the rotation (366.25 sidereal days a year)"),
-    parameter("H", "1", 0.003_289_474, "(C - A)/A, the dynamical flattening"),
-    parameter("asymmetry", "1", 2.2e-5, "(B - A)/A, the equatorial asymmetry of the mean figure"),
-    parameter("alpha", "1", 0.95e-9, "amplitude of the resonant part of D/B and E/A"),
-    parameter("counter", "1", 0.0, "amplitude of the part that goes round the other way, in units of alpha"),
-    parameter("nu", "rad/yr", -5.319_86, "frequency of the deformation"),
-    parameter("beta", "rad", 0.0, "its phase at t = 0"),
-    parameter(
+    Parameter::new("Omega", "rad/yr", 2301.22, "G/C, the rate of the rotation (366.25 sidereal days a year)"),
+    Parameter::new("H", "1", 0.003_289_474, "(C - A)/A, the dynamical flattening"),
+    Parameter::new("asymmetry", "1", 2.2e-5, "(B - A)/A, the equatorial asymmetry of the mean figure"),
+    Parameter::new("alpha", "1", 0.95e-9, "amplitude of the resonant part of D/B and E/A"),
+    Parameter::new("counter", "1", 0.0, "amplitude of the part that goes round the other way, in units of alpha"),
+    Parameter::new("nu", "rad/yr", -5.319_86, "frequency of the deformation"),
+    Parameter::new("beta", "rad", 0.0, "its phase at t = 0"),
+    Parameter::new(
         "J_0",
         "rad",
         9.696e-7,
         "angle from the angular momentum to the axis of figure at t = 0 (0.2 arc seconds)",
     ),
-    parameter("l_0", "rad", std::f64::consts::PI, "Andoyer's angle l at t = 0; beta + pi in the stable equilibrium"),
+    Parameter::new(
+        "l_0",
+        "rad",
+        std::f64::consts::PI,
+        "Andoyer's angle l at t = 0; beta + pi in the stable equilibrium",
+    ),
 ];
 
 /// Positions of the quantities.
 pub const J: usize = 2;
 
-const fn quantity(name: &'static str, unit: &'static str, about: &'static str) -> Quantity {
-    Quantity { name, unit, about }
-}
-
 /// The quantities.
 pub const QUANTITIES: &[Quantity] = &[
-    quantity("m_1", "1", "first component of the angular momentum about the body's axes, in units of G"),
-    quantity("m_2", "1", "second component"),
-    quantity("J", "rad", "angle from the angular momentum to the axis of figure"),
+    Quantity::new("m_1", "1", "first component of the angular momentum about the body's axes, in units of G"),
+    Quantity::new("m_2", "1", "second component"),
+    Quantity::new("J", "rad", "angle from the angular momentum to the axis of figure"),
 ];
 
 /// The body, its deformation and its rotation at t = 0.
