@@ -56,3 +56,6 @@ pub fn measured(documents: &[Document], request: &Request) -> Result<Vec<Measure
     };
     each.into_iter().collect()
 }
+
+#[cfg(test)]
+mod tests;

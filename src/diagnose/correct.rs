@@ -15,8 +15,8 @@ use std::collections::HashMap;
 use crate::check::verdict::{Difference, Judgement, LinkJudgement, Suggestion, Verdict};
 use crate::check::{Book, Options, Outcome, Screen, Trial, Version};
 use crate::latex::ast::{Kind, Node};
+use crate::latex::diff;
 use crate::latex::{self, to_latex};
-use crate::report::marked_words;
 use crate::semantics::{Clause, Scope, Side};
 
 use super::change::{Change, at};
@@ -73,7 +73,7 @@ pub fn meant(book: &Book, index: usize, tree: &Node, links: &[LinkJudgement], op
     let before = to_latex(tree);
     let suggestion = |(change, tree): (Change, Node)| {
         let latex = to_latex(&tree);
-        let diff = marked_words(&before, &latex).map(|(printed, suggested)| Difference { printed, suggested });
+        let diff = diff::words(&before, &latex).map(|(printed, suggested)| Difference { printed, suggested });
         Suggestion { latex, edit: change.edits.join("; "), printed: before.clone(), diff }
     };
     found.into_iter().take(MOST).map(suggestion).collect()

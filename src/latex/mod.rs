@@ -7,6 +7,7 @@
 
 pub mod ast;
 mod characters;
+pub mod diff;
 mod error;
 mod layout;
 mod macros;

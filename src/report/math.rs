@@ -3,11 +3,12 @@
 use super::mathml::canonical;
 use super::text::escape;
 use crate::breakdown::caught;
+use crate::latex::diff::{DEEPEST, nesting};
 use katex::types::{OutputFormat, Settings};
 use katex::{KatexContext, render_to_string};
 
-/// The nesting and the length past which a source is shown as it is: katex descends by recursion.
-pub(super) const DEEPEST: usize = 60;
+/// The length past which a source is shown as it is, as where it nests deeper than [`DEEPEST`]: katex descends by
+/// recursion.
 const LONGEST: usize = 40_000;
 
 /// The colour by which a part is marked on its way through katex; it leaves as the class `changed`.
@@ -81,38 +82,10 @@ fn source(latex: &str) -> String {
     format!("<code class=\"source\">{}</code>", escape(latex))
 }
 
-/// How deep groups and environments nest, by counting: commands with braceless arguments (`\sqrt\sqrt x`) count, too.
-pub(super) fn nesting(latex: &str) -> usize {
-    let (mut depth, mut deepest, mut run) = (0usize, 0, 0);
-    let mut chars = latex.chars().peekable();
-    while let Some(c) = chars.next() {
-        match c {
-            '{' | '[' => depth += 1,
-            '}' | ']' => depth = depth.saturating_sub(1),
-            _ => {}
-        }
-        if c == '\\' {
-            let mut name = String::new();
-            while let Some(letter) = chars.next_if(char::is_ascii_alphabetic) {
-                name.push(letter);
-            }
-            match name.as_str() {
-                "" => drop(chars.next()),
-                "begin" | "left" => depth += 1,
-                "end" | "right" => depth = depth.saturating_sub(1),
-                _ => run += 1,
-            }
-        } else if !matches!(c, ' ' | '^' | '_') {
-            run = 0;
-        }
-        deepest = deepest.max(depth + run);
-    }
-    deepest
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::latex::diff::mark_by;
 
     #[test]
     fn formulas_become_mathml_the_same_each_time() {
@@ -199,5 +172,11 @@ mod tests {
     fn marks_become_classes() {
         let html = Renderer::new().marked(&format!("a = b^{}", marked("2"))).unwrap();
         assert!(html.contains("<mstyle class=\"changed\"><mn>2</mn></mstyle>"), "{html}");
+    }
+
+    #[test]
+    fn rows_and_cells_stay_outside_of_marks() {
+        let (left, _) = mark_by(r"a &= b \\ &= c", r"d", [marked; 2]).unwrap();
+        assert!(Renderer::new().marked(&left).is_some_and(|html| html.contains("changed")), "{left}");
     }
 }

@@ -5,7 +5,6 @@
 pub mod annotations;
 pub mod charts;
 mod counts;
-mod diff;
 mod dumbbells;
 pub mod html;
 pub mod json;
@@ -25,7 +24,6 @@ mod write;
 
 pub use charts::Chart;
 pub use counts::Counts;
-pub use diff::words as marked_words;
 
 use crate::check::verdict::DocumentReport;
 use std::path::{Path, PathBuf};

@@ -3,10 +3,11 @@
 //! Fields that hold HTML end in `_html` and are the only ones that templates may mark as safe; everything else is
 //! escaped by the template engine.
 
-use super::math::Renderer;
+use super::math::{self, Renderer};
 use super::text::{duration, language, number, strength, symbol, word};
-use super::{Counts, Options, Run, diff, text, view_certificate, view_charts, view_diagnosis, view_dimensions};
+use super::{Counts, Options, Run, text, view_certificate, view_charts, view_diagnosis, view_dimensions};
 use crate::check::verdict::{Correction, Counterexample, DocumentReport, Judgement, LinkJudgement, Order, Verdict};
+use crate::latex::diff::mark_by;
 use serde::Serialize;
 use std::collections::HashMap;
 
@@ -286,7 +287,7 @@ impl Builder {
         let Some(Correction { latex, verdict, links, .. }) = &j.correction else { return (plain.to_owned(), None) };
         // A reading stands for the printed formula; the correction is compared with what was judged.
         let judged = j.reading.as_ref().unwrap_or(&j.latex);
-        let marks = diff::mark(judged, latex)
+        let marks = mark_by(judged, latex, [math::marked; 2])
             .and_then(|(before, after)| Some((self.renderer.marked(&before)?, self.renderer.marked(&after)?)));
         let (printed, corrected) =
             marks.unwrap_or_else(|| (self.renderer.display(judged), self.renderer.display(latex)));

@@ -1,8 +1,8 @@
 //! The diagnosis for the templates: sensitivity, survivors, suggestions.
 
-use super::diff;
-use super::math::Renderer;
+use super::math::{self, Renderer};
 use crate::check::verdict::{Judgement, Sensitivity};
+use crate::latex::diff::mark_by;
 use serde::Serialize;
 
 /// A formula that was probably meant.
@@ -29,7 +29,7 @@ pub(super) fn view(j: &Judgement, renderer: &Renderer) -> Diagnosis {
     let words = |edit: &String| renderer.prose(&edit.replace('`', "$"));
     let survivors = j.sensitivity.iter().flat_map(|s| &s.survivors);
     let suggestion = |s: &crate::check::verdict::Suggestion| {
-        let marks = diff::mark(&s.printed, &s.latex)
+        let marks = mark_by(&s.printed, &s.latex, [math::marked; 2])
             .and_then(|(before, after)| Some((renderer.marked(&before)?, renderer.marked(&after)?)));
         let (printed_html, math_html) =
             marks.unwrap_or_else(|| (renderer.display(&s.printed), renderer.display(&s.latex)));

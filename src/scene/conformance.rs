@@ -128,9 +128,11 @@ fn all_models_of_a_scene_agree() {
             let all: Vec<usize> = (0..scene.quantities.len()).collect();
             let truth = truth(scene, &parameters(scene, &case), &all, &times(case.until)).unwrap();
             for model in scene.models.iter().filter(|m| m.about().kind != Kind::Approximation) {
+                let machine = agrees(scene, &case, *model, Arithmetic::Machine, &truth);
+                assert!(machine || case.name != "default", "{}: {} gives no numbers", scene.name, model.about().name);
                 // In many bits an implicit method takes minutes; the integrators' own suite has it there.
                 let implicit = model.about().name == "gauss-legendre";
-                for arithmetic in ladder().into_iter().filter(|a| !implicit || a.bits() <= 104) {
+                for arithmetic in ladder().into_iter().skip(1).filter(|a| !implicit || a.bits() <= 104) {
                     agrees(scene, &case, *model, arithmetic, &truth);
                 }
             }
@@ -138,8 +140,9 @@ fn all_models_of_a_scene_agree() {
     }
 }
 
-/// Compares a model with the fullest equations in all quantities that it gives.
-fn agrees(scene: &'static Scene, case: &Case, model: &dyn AnyModel, arithmetic: Arithmetic, truth: &Values) {
+/// Compares a model with the fullest equations in all quantities that it gives; false where it does not apply. Every model
+/// is to apply to its scene's default motion in machine numbers.
+fn agrees(scene: &'static Scene, case: &Case, model: &dyn AnyModel, arithmetic: Arithmetic, truth: &Values) -> bool {
     let (parameters, times) = (parameters(scene, case), times(case.until));
     let what = format!("{}, {}: {} in {}", scene.name, case.name, model.about().name, arithmetic.name());
     let quantities: Vec<usize> = (0..scene.quantities.len()).filter(|q| model.gives(&[*q])).collect();
@@ -147,9 +150,7 @@ fn agrees(scene: &'static Scene, case: &Case, model: &dyn AnyModel, arithmetic: 
     let task = Task { scene, parameters: &parameters, quantities: &quantities, times: &times, tolerance };
     let values = match model.run(&task, arithmetic) {
         Ok((values, _)) => values,
-        Err(SceneError::Regime { .. } | SceneError::NotGiven { .. }) => return,
-        // An implicit step that is not solved is told, too, and gives no numbers.
-        Err(SceneError::Integration(crate::integrator::IntegrationError::NoConvergence { .. })) => return,
+        Err(SceneError::Regime { .. } | SceneError::NotGiven { .. }) => return false,
         Err(why) => panic!("{what}: {why}"),
     };
     // Relative to the largest value of a quantity, or one.
@@ -162,6 +163,7 @@ fn agrees(scene: &'static Scene, case: &Case, model: &dyn AnyModel, arithmetic: 
         println!("{what}: {name} {distance:.1e}");
         assert!(distance < bound, "{what}: {name} is off by {distance:e}, bound {bound:e}");
     }
+    true
 }
 
 /// A quantity alone is what it is among others.

@@ -1,8 +1,6 @@
 //! `stability.html` and `stability.json`: where the formulas of notes lose their digits in doubles, and forms that do
 //! not.
 
-#[cfg(test)]
-mod tests;
 mod view;
 
 use std::path::Path;

@@ -2,7 +2,8 @@ use std::path::Path;
 
 use super::*;
 use crate::document;
-use crate::stability::{Request, stability};
+use crate::report::Options;
+use crate::report::stability::{html, json, table};
 
 /// Notes with a planted cancellation, an ill-conditioned difference and a harmless product.
 const NOTES: &str = "<!-- kenzan\n[symbols]\n'x' = { range = [0.0, 1.0] }\n'y, z' = { range = [1.0, 2.0] }\n-->\n\n\
@@ -51,5 +52,5 @@ fn the_same_seed_gives_the_same_bytes() {
 fn the_table_of_hard_cases() {
     let documents = crate::verify::documents(&[]).unwrap();
     let request = Request { seed: 1, only: Vec::new(), times: false };
-    insta::assert_snapshot!(table(&crate::stability::measured(&documents, &request).unwrap()));
+    insta::assert_snapshot!(table(&measured(&documents, &request).unwrap()));
 }
