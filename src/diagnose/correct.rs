@@ -22,9 +22,9 @@ use super::lexicon::Lexicon;
 use super::likeness;
 use super::mutants::{LONGEST, replaced_at};
 use super::near::Near;
-use super::singles::Singles;
 use super::shape::{is_null, times};
 use super::sides::Row;
+use super::singles::Singles;
 use super::tries;
 
 /// How many suggestions are made.
