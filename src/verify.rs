@@ -65,7 +65,10 @@ pub fn documents(paths: &[PathBuf]) -> Result<Vec<Document>, ReadError> {
 pub fn verify(document: Document, request: &Request, judged: &(dyn Fn() + Sync)) -> Verified {
     let book = Book::new(&document);
     let wanted: Vec<usize> = (0..book.entries.len())
-        .filter(|k| request.only.is_empty() || request.only.contains(&book.entries[*k].equation.label))
+        .filter(|k| {
+            let equation = &book.entries[*k].equation;
+            request.only.is_empty() || request.only.iter().any(|label| equation.is_called(label))
+        })
         .collect();
     let judge = |index: &usize| {
         let outcome = caught(|| judged_and_diagnosed(&book, *index, request));

@@ -57,7 +57,7 @@ pub fn blank(book: &Book, index: usize) -> Judgement {
         numbered: equation.numbered,
         section: entry.section.clone(),
         line: equation.line,
-        latex: format!("{}{}", equation.prefix, equation.masked.trim()),
+        latex: entry.printed.latex.trim().to_owned(),
         kind: kind(book, index),
         verdict: Verdict::Undecided,
         strength: None,

@@ -36,7 +36,7 @@ fn check_promises(document: &Document) {
     for equation in document.equations() {
         assert_eq!(document.source.get(equation.span.clone()), Some(equation.latex.as_str()));
         assert_eq!(equation.masked.len(), equation.latex.len());
-        assert_eq!(document.lines.line(equation.span.start), equation.line);
+        assert_eq!(document.line_column(equation.span.start).0, equation.line);
         assert!(labels.insert(equation.label.as_str()), "label {} is not unique", equation.label);
     }
     for problem in &document.problems {
