@@ -56,6 +56,8 @@ pub fn blank(book: &Book, index: usize) -> Judgement {
         label: equation.label.clone(),
         numbered: equation.numbered,
         section: entry.section.clone(),
+        numbers: equation.numbers.clone(),
+        file: equation.file.as_ref().map(|path| path.display().to_string()),
         line: equation.line,
         latex: entry.printed.latex.trim().to_owned(),
         kind: kind(book, index),

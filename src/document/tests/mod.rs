@@ -6,6 +6,7 @@ mod files;
 mod hostile;
 mod messages;
 mod originals;
+mod tex;
 
 use super::*;
 use std::path::Path;

@@ -96,14 +96,17 @@ pub(super) fn group(text: &str, from: usize) -> Option<Span> {
 /// TOML has the length of the lines; the `%!` and the word `kenzan` are blank in it. `None` for the magic comments of
 /// editors.
 pub(super) fn annotation(text: &str) -> Option<(String, usize)> {
-    let first = text.strip_prefix("%!")?.trim_start_matches([' ', '\t']);
-    if ["TEX", "TeX", "BIB", "LW", "PS", "tex"].iter().any(|magic| first.starts_with(magic)) {
+    let is_magic = |content: &str| {
+        let content = content.trim_start_matches([' ', '\t']);
+        ["TEX", "TeX", "tex", "BIB", "LW", "PS"].iter().any(|magic| content.starts_with(magic))
+    };
+    if text.strip_prefix("%!").is_none_or(is_magic) {
         return None;
     }
     let mut toml = String::new();
     for line in text.split_inclusive('\n') {
         let rest = line.trim_start_matches([' ', '\t']);
-        let Some(content) = rest.strip_prefix("%!") else { break };
+        let Some(content) = rest.strip_prefix("%!").filter(|content| !is_magic(content)) else { break };
         toml.extend(std::iter::repeat_n(' ', line.len() - content.len()));
         match content.trim_start().strip_prefix("kenzan") {
             Some(behind) if toml.trim().is_empty() && (behind.is_empty() || behind.starts_with(char::is_whitespace)) => {

@@ -97,7 +97,7 @@ impl<'a> Expander<'a> {
         }
         let (mut depth, mut braces) = (0_usize, 0_usize);
         let end = self.waiting.iter().rposition(|token| {
-            if token.is(open) && braces == 0 {
+            if token.is(open) && braces == 0 && (open != close || depth == 0) {
                 depth += 1;
             } else if token.is(close) && braces == 0 {
                 depth = depth.saturating_sub(1);
