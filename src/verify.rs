@@ -73,7 +73,10 @@ pub fn verify(document: Document, request: &Request, judged: &(dyn Fn() + Sync))
     }
     let ground = (!guesses.is_empty()).then(|| Ground::new(&book, &document, guesses));
     let wanted: Vec<usize> = (0..book.entries.len())
-        .filter(|k| request.only.is_empty() || request.only.contains(&book.entries[*k].equation.label))
+        .filter(|k| {
+            let equation = &book.entries[*k].equation;
+            request.only.is_empty() || request.only.iter().any(|label| equation.is_called(label))
+        })
         .collect();
     // An equation of which nothing is declared is given premises in a book of one's own.
     let own = || ground.as_ref().map(|_| book.clone());
@@ -112,7 +115,7 @@ fn assumed(guess: &roles::Guess, document: &Document) -> Assumed {
         role: guess.role.words(),
         range: guess.range(),
         moves: guess.moves,
-        line: document.lines.line(guess.at),
+        line: document.files.line(guess.at),
     }
 }
 

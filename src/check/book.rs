@@ -4,6 +4,7 @@ use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
 use crate::document::{Declarations, Document, Equation, EquationAnnotation, Item, LinkPremises, Problem, Spanned};
+use crate::latex::expand::{Expanded, Macros};
 use crate::latex::{self, ParseError, ast::Node};
 use crate::semantics::{self, Scope, Statement};
 
@@ -18,17 +19,37 @@ const LONGEST_CHAIN: usize = 100;
 /// A formula in LaTeX with its tree.
 #[derive(Clone, Debug)]
 pub struct Formula {
-    /// The LaTeX that was parsed.
+    /// The LaTeX that was parsed, its macros expanded.
     pub latex: String,
+    /// Where what was parsed comes from.
+    pub expanded: Expanded,
     /// Its tree, or why it could not be read.
     pub tree: Result<Node, ParseError>,
 }
 
 impl Formula {
-    /// Reads LaTeX.
+    /// Reads LaTeX whose macros have been expanded.
     pub fn new(latex: &str) -> Self {
-        let tree = if latex.len() <= LONGEST { latex::parse(latex) } else { Err(too_long(latex)) };
-        Formula { latex: latex.to_owned(), tree }
+        Self::read(Expanded::verbatim(latex))
+    }
+
+    /// Reads LaTeX with macros. An error of their expansion is placed in the LaTeX as it is written.
+    pub fn with_macros(latex: &str, macros: &Macros) -> Self {
+        match macros.expand(latex.get(..LONGEST + 1).unwrap_or(latex)) {
+            Ok(expanded) => Self::read(expanded),
+            Err(error) => Formula { tree: Err(error), ..Self::read(Expanded::verbatim(latex)) },
+        }
+    }
+
+    /// A formula that has been made and not printed.
+    pub fn made(latex: String, tree: Node) -> Self {
+        Formula { expanded: Expanded::verbatim(&latex), latex, tree: Ok(tree) }
+    }
+
+    fn read(expanded: Expanded) -> Self {
+        let latex = expanded.text.clone();
+        let tree = if latex.len() <= LONGEST { latex::parse(&latex) } else { Err(too_long(&latex)) };
+        Formula { latex, expanded, tree }
     }
 }
 
@@ -118,6 +139,8 @@ pub struct Book {
     /// What is wrong with the declarations.
     pub problems: Vec<Problem>,
     labels: HashMap<String, usize>,
+    /// The numbers that LaTeX prints beside equations that the notes call by other names.
+    numbers: HashMap<String, usize>,
     /// The equations that mention a symbol, in order, by its pattern.
     mentioned: HashMap<String, Vec<usize>>,
     circles: HashMap<usize, Circle>,
@@ -160,7 +183,7 @@ impl Book {
             _ => Arc::clone(scope),
         };
         let formula = |text: &Option<Spanned<String>>| text.as_ref().map(|t| Formula::new(&t.value));
-        let printed = Formula::new(&format!("{}{}", equation.prefix, equation.masked));
+        let printed = Formula::with_macros(&format!("{}{}", equation.prefix, equation.masked), &equation.macros);
         let reading = annotation.and_then(|a| formula(&a.reading));
         let correction = annotation.and_then(|a| formula(&a.correction));
         let mut mentions = HashSet::new();
@@ -172,6 +195,9 @@ impl Book {
         let mentions: HashMap<String, usize> =
             mentions.into_iter().filter_map(|m| scope.get(&m).map(|e| e.declared).map(|d| (m, d))).collect();
         self.labels.entry(equation.label.clone()).or_insert(self.entries.len());
+        for number in &equation.numbers {
+            self.numbers.entry(number.clone()).or_insert(self.entries.len());
+        }
         for pattern in mentions.keys() {
             self.mentioned.entry(pattern.clone()).or_default().push(self.entries.len());
         }
@@ -189,7 +215,7 @@ impl Book {
 
     /// The equation that a reference means, with the statement of it, counted from 1, where one is named: `75.2`.
     pub fn find(&self, reference: &str) -> Option<(usize, Option<usize>)> {
-        if let Some(index) = self.labels.get(reference) {
+        if let Some(index) = self.labels.get(reference).or_else(|| self.numbers.get(reference)) {
             return Some((*index, None));
         }
         let (label, part) = reference.rsplit_once('.')?;

@@ -115,7 +115,7 @@ fn is_shown(j: &Judgement) -> bool {
 
 fn line(text: &mut String, document: &DocumentReport, j: &Judgement, paint: Paint) -> std::fmt::Result {
     let mark = paint.verdict(j.verdict, &format!("{} ({})", symbol(j.verdict), one_line(&j.label)));
-    write!(text, "  {mark} {}:{} {}", one_line(&document.path), j.line, word(j.verdict))?;
+    write!(text, "  {mark} {}:{} {}", one_line(document.path_of(j)), j.line, word(j.verdict))?;
     if j.expect == Some(j.verdict) && !j.as_expected {
         write!(text, ", as expected, but its correction {}", j.correction.as_ref().map_or("", |c| phrase(c.verdict)))?;
     } else if let (false, Some(expected)) = (j.as_expected, j.expect) {
