@@ -79,6 +79,8 @@ pub fn blank(book: &Book, index: usize) -> Judgement {
         sensitivity: None,
         suggestions: Vec::new(),
         lost_bits: None,
+        inferred: None,
+        suspect: None,
         unfinished: None,
         micros: 0,
         problem: None,
@@ -147,6 +149,16 @@ pub(super) fn judge_version(book: &Book, index: usize, version: Version, options
     };
     let source = Source::new(book, index, version).until(Deadline::after(options.budget));
     judge_statement(&source, &statement, options)
+}
+
+/// Judges one link (from 0) of an equation as printed, with the definitions before it known; none where it has no such link.
+pub fn judge_one(book: &Book, index: usize, link: usize, options: &Options) -> Option<LinkJudgement> {
+    let statement = book.statement(index, Version::Printed).ok()?;
+    let clause = statement.clauses.get(link)?;
+    let before = statement.clauses.iter().take(link);
+    let known: Vec<Clause> = before.filter(|c| defines(book, index, c)).cloned().collect();
+    let source = Source::new(book, index, Version::Printed).until(Deadline::after(options.budget));
+    Some(judge_link(&source.at(link), clause, &book.entries[index].scope, &known, options))
 }
 
 /// Judges the links of another formula in the place of an equation; none where it cannot be taken apart.

@@ -62,6 +62,8 @@ pub(super) struct Assembly<'a> {
     pub(super) lines: Lines,
     pub(super) items: Vec<Item>,
     pub(super) problems: Vec<Problem>,
+    /// The inline formulas, without their delimiters.
+    pub(super) formulas: Vec<Span>,
     /// All labels with the places where they are printed or given.
     labels: HashMap<String, Span>,
     /// The last label printed.
@@ -81,6 +83,7 @@ impl<'a> Assembly<'a> {
             lines: Lines::new(source),
             items: Vec::new(),
             problems,
+            formulas: Vec::new(),
             labels: HashMap::new(),
             previous: None,
             unnumbered: 0,
@@ -97,7 +100,10 @@ impl<'a> Assembly<'a> {
                 self.target = Target::Nothing;
                 self.items.push(Item::Section(section));
             }
-            Part::Formula(span) => self.formula = Some(span),
+            Part::Formula(span) => {
+                self.formulas.push(trimmed(self.source, span.start + 1..span.end - 1));
+                self.formula = Some(span);
+            }
             Part::Found(Found::Display { span, content, environment }) => {
                 self.display(span.start, content, environment)
             }

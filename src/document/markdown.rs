@@ -39,6 +39,7 @@ pub fn parse(path: &Path, source: &str) -> Document {
         source: Arc::from(source),
         items: assembly.items,
         problems: assembly.problems,
+        formulas: assembly.formulas,
         lines: assembly.lines,
     }
 }

@@ -49,6 +49,8 @@ pub struct Document {
     pub items: Vec<Item>,
     /// What is wrong with it, in the order of the file.
     pub problems: Vec<Problem>,
+    /// The inline formulas, without their delimiters, in the order of the file.
+    pub formulas: Vec<Span>,
     /// Where its lines begin.
     pub lines: Lines,
 }
