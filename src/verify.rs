@@ -12,7 +12,7 @@ use crate::check::{self, Book, Options};
 use crate::diagnose::{correct, sensitivity};
 use crate::document::{self, Document, ReadError};
 use crate::expr::Deadline;
-use crate::infer::{Ground, roles};
+use crate::infer::{self, Ground, roles};
 use crate::report::{Run, charts};
 
 /// The notes that Kenzan brings along, by the path they have in the repository.
@@ -67,7 +67,10 @@ pub fn verify(document: Document, request: &Request, judged: &(dyn Fn() + Sync))
     let guesses = if roles::declares_symbols(&document) { Vec::new() } else { roles::guess(&document) };
     let assumed = guesses.iter().map(|g| assumed(g, &document)).collect();
     let document = if guesses.is_empty() { document } else { roles::declare(&document, &guesses) };
-    let book = Book::new(&document);
+    let mut book = Book::new(&document);
+    if !guesses.is_empty() {
+        infer::declare_functions(&mut book, &document);
+    }
     let ground = (!guesses.is_empty()).then(|| Ground::new(&book, &document, guesses));
     let wanted: Vec<usize> = (0..book.entries.len())
         .filter(|k| request.only.is_empty() || request.only.contains(&book.entries[*k].equation.label))

@@ -151,12 +151,14 @@ pub(super) fn judge_version(book: &Book, index: usize, version: Version, options
     judge_statement(&source, &statement, options)
 }
 
-/// Judges one link (from 0) of an equation as printed, with the definitions before it known; none where it has no such link.
-pub fn judge_one(book: &Book, index: usize, link: usize, options: &Options) -> Option<LinkJudgement> {
+/// Judges one link (from 0) of an equation as printed; none where it has no such link. The links before it that define
+/// something, or that are taken as given where the equation is a law, are known.
+pub fn judge_one(book: &Book, index: usize, link: usize, taken: &[usize], options: &Options) -> Option<LinkJudgement> {
     let statement = book.statement(index, Version::Printed).ok()?;
     let clause = statement.clauses.get(link)?;
-    let before = statement.clauses.iter().take(link);
-    let known: Vec<Clause> = before.filter(|c| defines(book, index, c)).cloned().collect();
+    let before = statement.clauses.iter().enumerate().take(link);
+    let known = before.filter(|(k, c)| taken.contains(k) || defines(book, index, c)).map(|(_, c)| c.clone());
+    let known: Vec<Clause> = known.collect();
     let source = Source::new(book, index, Version::Printed).until(Deadline::after(options.budget));
     Some(judge_link(&source.at(link), clause, &book.entries[index].scope, &known, options))
 }

@@ -67,12 +67,17 @@ impl Singles<'_> {
 
     /// What is tried where there are no values: single edits with factors put in.
     pub fn tried(&self) -> Vec<Change> {
+        self.with_factors().into_iter().map(|(_, change)| change).collect()
+    }
+
+    /// Single edits with factors put in, the likeliest first.
+    fn with_factors(&self) -> Vec<(EditKind, Change)> {
         let factors = tries::factors(self.near, self.scope);
         let mut walk = Walk::new(self.scope, Reach { siblings: None, factors: &factors });
         walk.visit(self.tree);
         let found = walk.found.into_iter().chain(wider(self.tree, self.scope, self.near));
-        let mut all: Vec<Change> = found.map(|f| self.change(f)).collect();
-        all.sort_by_key(|c| c.cost);
+        let mut all: Vec<(EditKind, Change)> = found.map(|f| (f.edit.kind, self.change(f))).collect();
+        all.sort_by_key(|(_, change)| change.cost);
         all
     }
 
@@ -94,12 +99,23 @@ impl Singles<'_> {
     }
 }
 
-/// The formulas that are one edit away from one that stands in the place of an equation, the likeliest first, each with the
-/// edit in words and what it costs (see [`likeness`]).
-pub fn single_edits(book: &Book, index: usize, tree: &Node) -> Vec<(Node, String, u32)> {
+/// A formula that is one edit away from another.
+pub struct Edited {
+    /// The formula.
+    pub tree: Node,
+    /// The edit in words, LaTeX between backticks.
+    pub edit: String,
+    /// How unlikely it is: see [`likeness`].
+    pub cost: u32,
+}
+
+/// The formulas that are one slip away from one that stands in the place of an equation, the likeliest first. That a
+/// symbol stands for what it is said to equal is no slip.
+pub fn slips(book: &Book, index: usize, tree: &Node) -> Vec<Edited> {
     let near = Near::new(book, index, tree);
     let singles = Singles { scope: &book.entries[index].scope, tree, near: &near };
-    singles.all().into_iter().map(|c| (c.made(tree), c.edits.join("; "), c.cost)).collect()
+    let slips = singles.with_factors().into_iter().filter(|(kind, _)| *kind != EditKind::Replace);
+    slips.map(|(_, c)| Edited { tree: c.made(tree), edit: c.edits.join("; "), cost: c.cost }).collect()
 }
 
 /// Whether an edit is likely to be made in every place at once: what was misread once is misread again.

@@ -5,8 +5,13 @@ use std::collections::{BTreeMap, BTreeSet};
 use crate::check::{Book, Version};
 use crate::document::{Document, Span};
 use crate::expr::SymId;
-use crate::latex::{self, ast::Rel};
+use crate::latex::{
+    self,
+    ast::{Kind, Node, Rel},
+};
 use crate::semantics::{self, Clause, Scope, Side, World};
+
+use super::evidence::is_name;
 
 /// A formula that an equation may follow from.
 #[derive(Clone, Debug)]
@@ -21,6 +26,8 @@ pub struct Candidate {
     pub equations: usize,
     /// Whether it has what depends on the time, so that its derivatives say more than it does.
     pub moves: bool,
+    /// The symbols of which it has rates.
+    pub rates: BTreeSet<String>,
 }
 
 /// Where a candidate comes from.
@@ -62,11 +69,21 @@ fn candidate(source: Origin, span: Span, scope: &Scope, clauses: &[Clause]) -> O
     if clauses.is_empty() || !clauses.iter().all(|c| matches!(c.rel, Rel::Eq | Rel::Equiv)) {
         return None;
     }
-    let spoken = Spoken::of(scope, clauses)?;
-    Some(Candidate { source, span, symbols: spoken.symbols, equations: spoken.equations, moves: spoken.moves })
+    if matches!(source, Origin::Inline(_)) && clauses.iter().any(is_condition) {
+        return None;
+    }
+    let Spoken { symbols, equations, moves, rates } = Spoken::of(scope, clauses)?;
+    Some(Candidate { source, span, symbols, equations, moves, rates })
+}
+
+/// Whether an inline formula says for which value something is said, `t = 0`, `x = l`, and not what is so.
+fn is_condition(clause: &Clause) -> bool {
+    let plain = |n: &Node| is_name(n) || matches!(n.kind, Kind::Number(_));
+    is_name(&clause.lhs) && matches!(&clause.rhs, Side::Node(n) if plain(n))
 }
 
 /// What clauses speak of.
+#[derive(Clone, Debug)]
 pub struct Spoken {
     /// The symbols, derivatives as what they are derivatives of.
     pub symbols: BTreeSet<String>,
@@ -74,6 +91,8 @@ pub struct Spoken {
     pub equations: usize,
     /// Whether something depends on the time.
     pub moves: bool,
+    /// The symbols of which they have rates.
+    pub rates: BTreeSet<String>,
 }
 
 impl Spoken {
@@ -95,8 +114,10 @@ impl Spoken {
         let ids: BTreeSet<SymId> = world.graph.symbols(&all);
         let base = |id: &SymId| world.graph.info(*id).base;
         let symbols: BTreeSet<String> = ids.iter().map(|id| world.graph.info(base(id)).name.clone()).collect();
-        let moves = ids.iter().any(|id| world.graph.info(*id).order > 0) || symbols.contains("t");
-        (!symbols.is_empty()).then_some(Spoken { symbols, equations, moves })
+        let rates = ids.iter().filter(|id| world.graph.info(**id).order > 0);
+        let rates: BTreeSet<String> = rates.map(|id| world.graph.info(base(id)).name.clone()).collect();
+        let moves = !rates.is_empty() || symbols.contains("t");
+        (!symbols.is_empty()).then_some(Spoken { symbols, equations, moves, rates })
     }
 }
 

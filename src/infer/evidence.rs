@@ -22,6 +22,8 @@ pub struct Evidence {
     pub arrays: BTreeMap<String, (usize, usize)>,
     /// The sizes of the square matrices and columns that are printed.
     pub sizes: BTreeSet<usize>,
+    /// Names of which derivatives are taken by something else than the time, with what they are taken by.
+    pub derived: BTreeMap<String, BTreeSet<String>>,
     /// Names directly behind sin, cos, tan.
     pub angles: BTreeSet<String>,
     /// Sides beside a name: what it may be defined as.
@@ -80,20 +82,22 @@ impl Evidence {
 
     /// `\frac{d x}{d t}`, `\frac{d}{dt}`.
     fn fraction(&mut self, above: &Node, below: &Node) {
-        let by_time = match &below.kind {
-            Kind::Juxt(f) => matches!(f.as_slice(), [d, t] if is_d(d) && is_time(t)),
-            _ => false,
-        };
-        if !by_time {
-            return;
-        }
-        self.time = true;
+        let variables = differentials(below);
+        self.time |= variables.iter().any(|v| v == "t");
         if let Kind::Juxt(factors) = &above.kind
             && let [d, operand @ ..] = factors.as_slice()
             && is_d(without_power(d))
         {
-            for name in operand {
-                self.moves.insert(spelling(name));
+            operand.iter().filter(|n| is_name(n)).for_each(|n| self.derivative(spelling(n), &variables));
+        }
+    }
+
+    fn derivative(&mut self, name: String, variables: &[String]) {
+        for variable in variables {
+            if variable == "t" {
+                self.moves.insert(name.clone());
+            } else {
+                self.derived.entry(name.clone()).or_default().insert(variable.clone());
             }
         }
     }
@@ -110,17 +114,24 @@ impl Evidence {
                     };
                     self.angles.insert(spelling(argument));
                 }
-                (Kind::Frac(above, below), Kind::Group { body, .. }) if is_d(without_power(above)) && is_dt(below) => {
-                    names(body, &mut |name| self.moves.extend([name]));
-                }
-                (Kind::Frac(above, below), _) if is_d(without_power(above)) && is_dt(below) => {
-                    self.moves.insert(spelling(next));
+                (Kind::Frac(above, below), _) if is_d(without_power(above)) => {
+                    let variables = differentials(below);
+                    let mut operands = Vec::new();
+                    match &next.kind {
+                        Kind::Group { body, .. } => names(body, &mut |name| operands.push(name)),
+                        _ => operands.push(spelling(next)),
+                    }
+                    let moving = |name: &String| !variables.iter().any(|v| v == "t") || !is_constant(name);
+                    operands.into_iter().filter(moving).for_each(|name| self.derivative(name, &variables));
                 }
                 (_, Kind::Group { open: Delim::Paren, body, .. }) if is_name(head) => match arguments(body) {
                     Some(arguments) if arguments == ["t"] => {
                         self.moves.insert(spelling(head));
                     }
                     Some(arguments) => {
+                        if arguments.iter().any(|a| a == "t") {
+                            self.moves.insert(spelling(head));
+                        }
                         self.functions.entry(spelling(head)).or_insert(arguments);
                     }
                     None => {}
@@ -155,7 +166,7 @@ impl Evidence {
             let more: Vec<String> = self
                 .equals
                 .iter()
-                .filter(|(name, side)| name != "t" && !moves.contains(name) && depends(side))
+                .filter(|(name, side)| name != "t" && !is_constant(name) && !moves.contains(name) && depends(side))
                 .map(|(name, _)| name.clone())
                 .collect();
             if more.is_empty() {
@@ -227,18 +238,30 @@ pub fn names(node: &Node, found: &mut dyn FnMut(String)) {
 
 fn is_d(node: &Node) -> bool {
     match &node.kind {
-        Kind::Symbol(s) => s == "d",
+        Kind::Symbol(s) => s == "d" || s == "\\partial",
         Kind::Styled(Font::Roman, body) => is_d(body),
         _ => false,
     }
 }
 
-fn is_time(node: &Node) -> bool {
-    matches!(&without_power(node).kind, Kind::Symbol(s) if s == "t")
+/// The variables of `dx`, `dx^2`, `\partial x \partial y`.
+fn differentials(below: &Node) -> Vec<String> {
+    let Kind::Juxt(factors) = &below.kind else { return Vec::new() };
+    let pairs = factors.chunks(2).filter_map(|pair| match pair {
+        [d, variable] if is_d(d) => Some(spelling(without_power(variable))),
+        _ => None,
+    });
+    pairs.collect()
 }
 
-fn is_dt(node: &Node) -> bool {
-    matches!(&node.kind, Kind::Juxt(f) if matches!(f.as_slice(), [d, t] if is_d(d) && is_time(t)))
+/// Letters that notes use for what does not change in time: masses, capacities, rates; and whatever has the index 0.
+pub fn is_constant(name: &str) -> bool {
+    const LETTERS: [&str; 22] = [
+        "m", "M", "k", "R", "C", "L", "g", "G", "c", "T", "A", "N", "l", "\\ell", "\\omega", "\\gamma", "\\tau",
+        "\\lambda", "\\mu", "\\varepsilon", "\\epsilon", "\\rho",
+    ];
+    let base = name.split('_').next().unwrap_or(name);
+    LETTERS.contains(&base) || name.ends_with("_{0}")
 }
 
 fn without_power(node: &Node) -> &Node {

@@ -10,7 +10,9 @@
 //! what does not follow is no failure.
 
 mod candidates;
+mod desk;
 mod evidence;
+mod formulas;
 mod judge;
 mod premises;
 mod references;
@@ -19,4 +21,5 @@ pub mod roles;
 mod subsets;
 mod suspects;
 
+pub use formulas::declare_functions;
 pub use judge::Ground;

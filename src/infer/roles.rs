@@ -8,7 +8,7 @@
 use std::collections::BTreeMap;
 
 use crate::check::{Book, Version};
-use crate::document::{Arguments, Declarations, Document, Item, Problem, Span, Spanned, SymbolDeclaration};
+use crate::document::{Declarations, Document, Item, Problem, Span, Spanned, SymbolDeclaration};
 use crate::latex::{self, ast::Node};
 use crate::semantics::{Clause, Error, ErrorKind, Scope, World, understand};
 
@@ -52,8 +52,6 @@ pub enum Role {
     Index(i64, i64),
     /// The imaginary unit.
     ImaginaryUnit,
-    /// A function of these arguments, which the notes give by a formula or not at all.
-    Function(Vec<String>, Option<String>),
 }
 
 impl Role {
@@ -71,7 +69,6 @@ impl Role {
             Role::Identity(rows) => format!("the identity matrix of {rows} rows"),
             Role::Index(from, to) => format!("an index from {from} to {to}"),
             Role::ImaginaryUnit => "the imaginary unit".into(),
-            Role::Function(arguments, _) => format!("a function of {}", arguments.join(", ")),
         }
     }
 }
@@ -85,6 +82,8 @@ pub struct Guess {
     pub role: Role,
     /// Whether it depends on the time.
     pub moves: bool,
+    /// What else it is printed as a function of.
+    pub of: Vec<String>,
     /// The indices it has one value for each of.
     pub each: Vec<String>,
     /// Where it is first printed, in bytes of the file.
@@ -104,10 +103,12 @@ impl Guess {
     /// The declaration that says it.
     pub fn declaration(&self) -> SymbolDeclaration {
         let text = |value: &str| Spanned::new(value.to_owned(), self.at..self.at + value.len());
+        let t = (self.moves && !self.of.iter().any(|of| of == "t")).then_some("t");
+        let of: Vec<&str> = self.of.iter().map(String::as_str).chain(t).collect();
         let mut declaration = SymbolDeclaration {
             names: vec![text(&self.name)],
             range: self.range(),
-            of: self.moves.then(|| text("t")),
+            of: (!of.is_empty()).then(|| text(&of.join(", "))),
             each: self.each.iter().map(|letter| text(letter)).collect(),
             span: self.at..self.at,
             ..SymbolDeclaration::default()
@@ -119,10 +120,6 @@ impl Guess {
             Role::Identity(rows) => declaration.same = Some(text(&identity(*rows))),
             Role::Index(from, to) => declaration.index = Some([*from, *to]),
             Role::ImaginaryUnit => declaration.same = Some(text("\\operatorname{i}")),
-            Role::Function(arguments, formula) => {
-                declaration.function = Some(Arguments::Names(arguments.iter().map(|a| text(a)).collect()));
-                declaration.same = formula.as_deref().map(text);
-            }
             Role::Time | Role::Number | Role::Positive => {}
         }
         declaration
@@ -220,6 +217,7 @@ impl Guesser {
                     name: letter.clone(),
                     role: Role::Index(INDEX[0], INDEX[1]),
                     moves: false,
+                    of: Vec::new(),
                     each: Vec::new(),
                     at,
                 });
@@ -230,7 +228,9 @@ impl Guesser {
         }
         let role = self.role(name);
         let moves = self.evidence.moves.contains(name) && !matches!(role, Role::Time | Role::Index(..));
-        self.add(Guess { name: name.to_owned(), role, moves, each, at });
+        let scalar = matches!(role, Role::Number | Role::Positive | Role::Angle | Role::Vector);
+        let of = if scalar { self.arguments(name) } else { Vec::new() };
+        self.add(Guess { name: name.to_owned(), role, moves, of, each, at });
         true
     }
 
@@ -254,6 +254,14 @@ impl Guesser {
         if !letters.is_empty() && letters.iter().all(|letter| runs(letter)) { letters } else { Vec::new() }
     }
 
+    /// What a name is printed as a function of, or else derived by.
+    fn arguments(&self, name: &str) -> Vec<String> {
+        match self.evidence.functions.get(name) {
+            Some(printed) => printed.clone(),
+            None => self.evidence.derived.get(name).into_iter().flatten().filter(|a| *a != name).cloned().collect(),
+        }
+    }
+
     fn role(&self, name: &str) -> Role {
         let evidence = &self.evidence;
         let base = subscript(name).map_or(name, |(base, _)| base).trim_end_matches('\'');
@@ -261,9 +269,6 @@ impl Guesser {
             // A bold letter that equals three components is a vector, whatever its columns are called.
             let vector = is_arrow(base) && (*rows, *columns) == (3, 1);
             return if vector { Role::Vector } else { Role::Matrix(*rows, *columns) };
-        }
-        if let Some(arguments) = evidence.functions.get(name) {
-            return Role::Function(arguments.clone(), None);
         }
         match name {
             "t" => return Role::Time,
