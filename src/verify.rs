@@ -8,10 +8,11 @@ use rayon::prelude::*;
 use crate::breakdown::caught;
 use crate::check::dimension::Survey;
 use crate::check::verdict::{DocumentReport, Judgement, Verdict};
-use crate::check::{self, Book, Options};
+use crate::check::{self, Book, Fingerprints, Options};
 use crate::diagnose::{correct, sensitivity};
 use crate::document::{self, Document, ReadError};
 use crate::expr::Deadline;
+use crate::incremental::{Judged, Memory};
 use crate::report::{Run, charts};
 
 /// The notes that Kenzan brings along, by the path they have in the repository.
@@ -63,17 +64,33 @@ pub fn documents(paths: &[PathBuf]) -> Result<Vec<Document>, ReadError> {
 
 /// Judges a document's equations, each on its own: one that panics costs no other. `judged` is called after each.
 pub fn verify(document: Document, request: &Request, judged: &(dyn Fn() + Sync)) -> Verified {
-    let book = Book::new(&document);
-    let wanted: Vec<usize> = (0..book.entries.len())
-        .filter(|k| request.only.is_empty() || request.only.contains(&book.entries[*k].equation.label))
+    verify_again(document, request, &mut Memory::default(), judged).0
+}
+
+/// As [`verify`], with what is remembered of an earlier state of the document under the same request. Says which
+/// equations were judged anew, by their places among all.
+pub fn verify_again(
+    document: Document,
+    request: &Request,
+    memory: &mut Memory,
+    judged: &(dyn Fn() + Sync),
+) -> (Verified, Vec<usize>) {
+    let book = memory.book(&document);
+    let prints = Fingerprints::new(&book);
+    let wanted: Vec<usize> = book
+        .entries
+        .iter()
+        .enumerate()
+        .filter(|(_, entry)| request.only.is_empty() || request.only.contains(&entry.equation.label))
+        .map(|(k, _)| k)
         .collect();
-    let judge = |index: &usize| {
-        let outcome = caught(|| judged_and_diagnosed(&book, *index, request));
+    let judge = |index: usize| {
+        let outcome = caught(|| judged_and_diagnosed(&book, index, request));
         judged();
-        outcome.unwrap_or_else(|panic| broken(&book, *index, &panic))
+        outcome.unwrap_or_else(|panic| broken(&book, index, &panic))
     };
-    let (survey, mut equations): (_, Vec<Judgement>) =
-        rayon::join(|| caught(|| Survey::new(&book)).ok(), || wanted.par_iter().map(judge).collect());
+    let Judged { judgements: mut equations, anew } = memory.judge(&prints, &wanted, judge);
+    let survey = caught(|| Survey::with(&prints, &mut memory.readings)).ok();
     if let Some(survey) = &survey {
         // Dimensions decide no verdict: without them the judgement stands.
         let report = |(index, judgement): (&usize, &mut Judgement)| drop(caught(|| survey.report(*index, judgement)));
@@ -88,7 +105,7 @@ pub fn verify(document: Document, request: &Request, judged: &(dyn Fn() + Sync))
         inferred: survey.map(|s| s.inferred()).unwrap_or_default(),
         equations,
     };
-    Verified { document, problems, report }
+    (Verified { document, problems, report }, anew)
 }
 
 /// The judgement on an equation, with the diagnosis that was asked for.
