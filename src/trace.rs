@@ -18,6 +18,8 @@ pub struct Trace {
     pub all_names: bool,
     /// The equations that were looked at, by their place in the book.
     pub equations: BTreeSet<usize>,
+    /// Those of them that continue the equation before, whichever that is.
+    pub continued: BTreeSet<usize>,
     /// The references that were looked up: `75`, `75.2`.
     pub references: BTreeSet<String>,
     /// The equations of which it was asked whether a symbol is mentioned before, with the symbol's pattern.
@@ -33,6 +35,7 @@ impl Trace {
         self.names.extend(other.names.iter().cloned());
         self.all_names |= other.all_names;
         self.equations.extend(&other.equations);
+        self.continued.extend(&other.continued);
         self.references.extend(other.references.iter().cloned());
         self.mentioned.extend(other.mentioned.iter().cloned());
         self.circles.extend(&other.circles);
@@ -102,6 +105,13 @@ pub fn all_names() {
 pub fn equation(index: usize) {
     note(|trace| {
         trace.equations.insert(index);
+    });
+}
+
+/// It is asked which equation stands before one that continues it.
+pub fn continued(index: usize) {
+    note(|trace| {
+        trace.continued.insert(index);
     });
 }
 

@@ -107,10 +107,10 @@ fn a_memory_changes_nothing_on_the_diagnosis() {
 const NOTES: &str = r#"# Notes
 
 <!-- kenzan
+assume = ['c < d']
 [symbols]
 'a, b, c' = { range = [1.0, 2.0] }
 'd' = { range = [1.0, 2.0] }
-assume = ['c < d']
 -->
 
 $$ a = 2 b \tag{1} $$
@@ -132,7 +132,8 @@ fn anew(change: &dyn Fn(&str) -> String) -> Vec<String> {
     let path = Path::new("notes.md");
     let request = request();
     let mut memory = Memory::default();
-    verify::verify_again(document::parse(path, NOTES), &request, &mut memory, &|| ());
+    let (before, _) = verify::verify_again(document::parse(path, NOTES), &request, &mut memory, &|| ());
+    assert!(before.problems.is_empty(), "{:?}", before.problems);
     let text = change(NOTES);
     assert_ne!(text, NOTES, "the change changes something");
     let (verified, anew) = verify::verify_again(document::parse(path, &text), &request, &mut memory, &|| ());

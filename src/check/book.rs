@@ -297,9 +297,9 @@ impl Book {
         // The formulas that are continued, the last first.
         let mut chain = vec![(index, tree)];
         let mut at = index;
-        while let (Some(previous), true) =
-            (self.entries[at].previous, semantics::begins_with_relation(chain[chain.len() - 1].1))
-        {
+        while semantics::begins_with_relation(chain[chain.len() - 1].1) {
+            trace::continued(at);
+            let Some(previous) = self.entries[at].previous else { break };
             at = previous;
             if chain.len() > LONGEST_CHAIN {
                 return Err(before(at, &format!("more than {LONGEST_CHAIN} equations continue each other")));

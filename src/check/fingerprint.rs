@@ -19,6 +19,8 @@ use super::book::Book;
 pub struct Footing {
     /// The labels of the equations looked at.
     labels: BTreeSet<String>,
+    /// Those of the equations that continue the one before.
+    continued: BTreeSet<String>,
     names: Vec<String>,
     all_names: bool,
     references: BTreeSet<String>,
@@ -32,7 +34,8 @@ impl Footing {
     /// The footing of work on an equation. `None` where it asked on behalf of another equation, which cannot be told
     /// in labels.
     pub fn new(book: &Book, index: usize, trace: Trace) -> Option<Self> {
-        let Trace { names, all_names, equations, references, mentioned, circles, around } = trace;
+        let Trace { names, all_names, equations, continued, references, mentioned, circles, around } = trace;
+        let label = |k: &usize| book.entries.quietly(*k).equation.label.clone();
         let own = |k: &usize| *k == index;
         let foreign = mentioned.iter().any(|(k, _)| *k != index)
             || !circles.iter().all(own)
@@ -40,7 +43,8 @@ impl Footing {
         let mut names: Vec<String> = names.into_iter().collect();
         names.sort_unstable();
         (!foreign).then(|| Footing {
-            labels: equations.iter().map(|k| book.entries.quietly(*k).equation.label.clone()).collect(),
+            labels: equations.iter().map(label).collect(),
+            continued: continued.iter().map(label).collect(),
             names,
             all_names,
             references,
@@ -128,7 +132,6 @@ impl<'b> Fingerprints<'b> {
         self.questions(index, footing, &mut hasher);
         for k in &equations {
             self.contents[*k].hash(&mut hasher);
-            self.previous(*k, footing).hash(&mut hasher);
         }
         Some((equations, hasher.finish()))
     }
@@ -150,6 +153,10 @@ impl<'b> Fingerprints<'b> {
     fn questions(&self, index: usize, footing: &Footing, hasher: &mut DefaultHasher) {
         let label = |k: usize| &self.book.entries.quietly(k).equation.label;
         label(index).hash(hasher);
+        for continued in &footing.continued {
+            let before = self.book.labelled(continued).and_then(|k| self.book.entries.quietly(k).previous);
+            before.map(label).hash(hasher);
+        }
         for reference in &footing.references {
             self.book.find(reference).map(|(k, part)| (label(k), part)).hash(hasher);
         }
@@ -163,13 +170,6 @@ impl<'b> Fingerprints<'b> {
             let around = self.book.around(index, reach);
             around.iter().for_each(|k| (label(*k), *k < index).hash(hasher));
         }
-    }
-
-    /// The equation before one, where it was looked at: it may be continued.
-    fn previous(&self, index: usize, footing: &Footing) -> Option<&str> {
-        let previous = self.book.entries.quietly(index).previous?;
-        let label = &self.book.entries.quietly(previous).equation.label;
-        footing.labels.contains(label).then_some(label.as_str())
     }
 
     fn scope(&self, scope: &Arc<Scope>) -> (u64, u64) {
@@ -265,21 +265,18 @@ fn said(annotation: &EquationAnnotation, hasher: &mut DefaultHasher) {
         symbols,
     } = annotation;
     let base = span.start;
-    let mut text = |text: &Spanned<String>| placed(text, base, hasher);
     for one in [label, for_label, kind, small, iff, maps, reading, correction, expect] {
-        text(one.as_ref().unwrap_or(&Spanned::default()));
+        all(one.as_slice(), base, hasher);
     }
     for list in [given, solve, solves, general, where_, harmonics, rows] {
-        list.iter().for_each(&mut text);
-        text(&Spanned::default());
+        all(list, base, hasher);
     }
-    range.iter().for_each(|(name, _)| text(name));
-    data.iter().for_each(|(name, value)| {
-        text(name);
-        text(value);
-    });
-    (range.iter().map(|(_, r)| r.map(f64::to_bits)).collect::<Vec<_>>(), data.len()).hash(hasher);
-    (order.map(f64::to_bits), because, digits, states).hash(hasher);
+    let (ranged, ranges): (Vec<_>, Vec<_>) = range.iter().map(|(name, r)| (name, r.map(f64::to_bits))).unzip();
+    let (named, values): (Vec<_>, Vec<_>) = data.iter().map(|(name, value)| (name, value)).unzip();
+    for list in [ranged, named, values] {
+        all(list, base, hasher);
+    }
+    (ranges, order.map(f64::to_bits), because, digits, states).hash(hasher);
     link.iter().for_each(|link| of_link(link, base, hasher));
     symbols.iter().for_each(|symbol| declared(symbol, hasher));
 }
@@ -287,11 +284,9 @@ fn said(annotation: &EquationAnnotation, hasher: &mut DefaultHasher) {
 fn of_link(link: &LinkPremises, base: usize, hasher: &mut DefaultHasher) {
     let LinkPremises { number, span, given, where_, iff } = link;
     (number, span.start.wrapping_sub(base), span.len()).hash(hasher);
-    for list in [given, where_] {
-        list.iter().for_each(|text| placed(text, base, hasher));
-        list.len().hash(hasher);
+    for list in [given.as_slice(), where_, iff.as_slice()] {
+        all(list, base, hasher);
     }
-    iff.iter().for_each(|text| placed(text, base, hasher));
 }
 
 /// What a declaration of its own says is in the equation's scope; here is told that it is there.
@@ -302,6 +297,12 @@ fn declared(symbol: &SymbolDeclaration, hasher: &mut DefaultHasher) {
     }
 }
 
-fn placed(text: &Spanned<String>, base: usize, hasher: &mut DefaultHasher) {
-    (&text.value, text.span.start.wrapping_sub(base), text.span.len()).hash(hasher);
+/// Texts with their places in the annotation that begins at `base`.
+fn all<'t>(texts: impl IntoIterator<Item = &'t Spanned<String>>, base: usize, hasher: &mut DefaultHasher) {
+    let mut count = 0_usize;
+    for text in texts {
+        (&text.value, text.span.start.wrapping_sub(base), text.span.len()).hash(hasher);
+        count += 1;
+    }
+    count.hash(hasher);
 }
