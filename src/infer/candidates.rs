@@ -65,7 +65,7 @@ pub fn inline(document: &Document) -> impl Iterator<Item = (Span, Formula)> {
 /// The declarations in force where an inline formula stands: those of the display before it, or of the first one.
 fn scope_at(book: &Book, at: usize) -> Option<&Scope> {
     let before = book.entries.iter().rev().find(|e| e.equation.span.start <= at);
-    before.or(book.entries.first()).map(|e| e.scope.as_ref())
+    before.or(book.entries.iter().next()).map(|e| e.scope.as_ref())
 }
 
 /// A candidate, where all that is stated are equalities that can be understood.
