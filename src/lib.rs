@@ -10,7 +10,7 @@
 //! |---|---|
 //! | 6 | `cli` |
 //! | 5 | `verify`, `explain`, `speed`, `stability` |
-//! | 4 | `report`, `diagnose` |
+//! | 4 | `report`, `diagnose`, `infer` |
 //! | 3 | `semantics`, `check`, `scene` |
 //! | 2 | `expr`, `integrator` |
 //! | 1 | `document`, `latex`, `number`, `breakdown` |
@@ -22,6 +22,7 @@ pub mod diagnose;
 pub mod document;
 pub mod explain;
 pub mod expr;
+pub mod infer;
 pub mod integrator;
 pub mod latex;
 pub mod number;

@@ -7,11 +7,12 @@ use rayon::prelude::*;
 
 use crate::breakdown::caught;
 use crate::check::dimension::Survey;
-use crate::check::verdict::{DocumentReport, Judgement, Verdict};
+use crate::check::verdict::{Assumed, DocumentReport, Judgement, Verdict};
 use crate::check::{self, Book, Options};
 use crate::diagnose::{correct, sensitivity};
 use crate::document::{self, Document, ReadError};
 use crate::expr::Deadline;
+use crate::infer::{self, Ground, roles};
 use crate::report::{Run, charts};
 
 /// The notes that Kenzan brings along, by the path they have in the repository.
@@ -63,20 +64,32 @@ pub fn documents(paths: &[PathBuf]) -> Result<Vec<Document>, ReadError> {
 
 /// Judges a document's equations, each on its own: one that panics costs no other. `judged` is called after each.
 pub fn verify(document: Document, request: &Request, judged: &(dyn Fn() + Sync)) -> Verified {
-    let book = Book::new(&document);
+    let guesses = if roles::declares_symbols(&document) { Vec::new() } else { roles::guess(&document) };
+    let assumed = guesses.iter().map(|g| assumed(g, &document)).collect();
+    let document = if guesses.is_empty() { document } else { roles::declare(&document, &guesses) };
+    let mut book = Book::new(&document);
+    if !guesses.is_empty() {
+        infer::declare_functions(&mut book, &document);
+    }
+    let ground = (!guesses.is_empty()).then(|| Ground::new(&book, &document, guesses));
     let wanted: Vec<usize> = (0..book.entries.len())
         .filter(|k| {
             let equation = &book.entries[*k].equation;
             request.only.is_empty() || request.only.iter().any(|label| equation.is_called(label))
         })
         .collect();
-    let judge = |index: &usize| {
-        let outcome = caught(|| judged_and_diagnosed(&book, *index, request));
+    // An equation of which nothing is declared is given premises in a book of one's own.
+    let own = || ground.as_ref().map(|_| book.clone());
+    let judge = |own: &mut Option<Book>, index: &usize| {
+        let outcome = caught(|| match (&ground, own) {
+            (Some(ground), Some(own)) => ground.judge(own, *index, &request.options),
+            _ => judged_and_diagnosed(&book, *index, request),
+        });
         judged();
         outcome.unwrap_or_else(|panic| broken(&book, *index, &panic))
     };
     let (survey, mut equations): (_, Vec<Judgement>) =
-        rayon::join(|| caught(|| Survey::new(&book)).ok(), || wanted.par_iter().map(judge).collect());
+        rayon::join(|| caught(|| Survey::new(&book)).ok(), || wanted.par_iter().map_init(own, judge).collect());
     if let Some(survey) = &survey {
         // Dimensions decide no verdict: without them the judgement stands.
         let report = |(index, judgement): (&usize, &mut Judgement)| drop(caught(|| survey.report(*index, judgement)));
@@ -89,9 +102,21 @@ pub fn verify(document: Document, request: &Request, judged: &(dyn Fn() + Sync))
         title: document.title.clone(),
         problems: problems.iter().map(|p| p.to_text(&document)).collect(),
         inferred: survey.map(|s| s.inferred()).unwrap_or_default(),
+        assumed,
         equations,
     };
     Verified { document, problems, report }
+}
+
+/// A guessed role for the report.
+fn assumed(guess: &roles::Guess, document: &Document) -> Assumed {
+    Assumed {
+        symbol: guess.name.clone(),
+        role: guess.role.words(),
+        range: guess.range(),
+        moves: guess.moves,
+        line: document.files.line(guess.at),
+    }
 }
 
 /// The judgement on an equation, with the diagnosis that was asked for.

@@ -81,6 +81,8 @@ pub fn blank(book: &Book, index: usize) -> Judgement {
         sensitivity: None,
         suggestions: Vec::new(),
         lost_bits: None,
+        inferred: None,
+        suspect: None,
         unfinished: None,
         micros: 0,
         problem: None,
@@ -149,6 +151,18 @@ pub(super) fn judge_version(book: &Book, index: usize, version: Version, options
     };
     let source = Source::new(book, index, version).until(Deadline::after(options.budget));
     judge_statement(&source, &statement, options)
+}
+
+/// Judges one link (from 0) of an equation as printed; none where it has no such link. The links before it that define
+/// something, or that are taken as given where the equation is a law, are known.
+pub fn judge_one(book: &Book, index: usize, link: usize, taken: &[usize], options: &Options) -> Option<LinkJudgement> {
+    let statement = book.statement(index, Version::Printed).ok()?;
+    let clause = statement.clauses.get(link)?;
+    let before = statement.clauses.iter().enumerate().take(link);
+    let known = before.filter(|(k, c)| taken.contains(k) || defines(book, index, c)).map(|(_, c)| c.clone());
+    let known: Vec<Clause> = known.collect();
+    let source = Source::new(book, index, Version::Printed).until(Deadline::after(options.budget));
+    Some(judge_link(&source.at(link), clause, &book.entries[index].scope, &known, options))
 }
 
 /// Judges the links of another formula in the place of an equation; none where it cannot be taken apart.

@@ -37,7 +37,7 @@ mod value;
 pub mod verdict;
 
 pub use book::{Book, Entry, Formula, Unclear, Version};
-pub use judge::{blank, judge, judge_tree};
+pub use judge::{blank, judge, judge_one, judge_tree};
 pub use options::Options;
 pub(crate) use random::Random;
 pub use screen::{STATES, Screen, Sight};

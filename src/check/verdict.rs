@@ -349,6 +349,52 @@ pub struct Difference {
     pub suggested: String,
 }
 
+/// What was found out about an equation that no annotation says anything of.
+#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+pub struct Inferred {
+    /// The labels of the equations that it follows from.
+    pub given: Vec<String>,
+    /// The inline formulas that it follows from, in LaTeX.
+    pub formulas: Vec<String>,
+    /// Whether it, or a link of it, follows from nothing before it, and so is new there.
+    pub new: bool,
+    /// What it holds under and is said nowhere, in LaTeX: `a > 0`.
+    pub needs: Vec<String>,
+    /// The premises of single links: the link's number, from 1, labels, and formulas.
+    #[serde(skip)]
+    pub links: Vec<(usize, Vec<String>, Vec<String>)>,
+}
+
+/// An equation that does not follow from those before it, but would after one edit of what is printed.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Suspect {
+    /// The edit in words, LaTeX between backticks.
+    pub edit: String,
+    /// The formula with the edit made.
+    pub latex: String,
+    /// The label of the equation that is edited: this one, or one that it would follow from.
+    pub label: String,
+    /// What it follows from then: labels of equations, and inline formulas in LaTeX.
+    pub premises: Vec<String>,
+    /// What is changed, marked.
+    pub diff: Option<Difference>,
+}
+
+/// A symbol that the notes do not declare, with the role it was guessed to have.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Assumed {
+    /// Its LaTeX.
+    pub symbol: String,
+    /// The role in words: `an angle`.
+    pub role: String,
+    /// Where its values are drawn from, where the role says it.
+    pub range: Option<[f64; 2]>,
+    /// Whether it depends on the time.
+    pub moves: bool,
+    /// The line in which it first occurs.
+    pub line: usize,
+}
+
 /// The judgement on one equation.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Judgement {
@@ -410,6 +456,12 @@ pub struct Judgement {
     pub suggestions: Vec<Suggestion>,
     /// What doubles lose: the mean over the links, and the worst.
     pub lost_bits: Option<LostBits>,
+    /// What was found out where nothing is annotated.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub inferred: Option<Inferred>,
+    /// The edit after which it would follow, where it does not as printed and nothing is annotated.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub suspect: Option<Suspect>,
     /// Which diagnosis was asked for and cut short, and why; what there is of it is not all.
     pub unfinished: Option<String>,
     /// The time it took, in microseconds.
@@ -470,6 +522,9 @@ pub struct DocumentReport {
     pub problems: Vec<String>,
     /// The dimensions that were inferred.
     pub inferred: Vec<InferredDimension>,
+    /// The symbols that the document does not declare, with the roles they were guessed to have.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub assumed: Vec<Assumed>,
     /// The judgements in order.
     pub equations: Vec<Judgement>,
 }

@@ -10,8 +10,6 @@
 //! nothing and comes last; of several that say the same the cheapest is kept. All budgets count formulas and not time,
 //! so that the same notes give the same suggestions.
 
-use std::collections::HashMap;
-
 use crate::check::verdict::{Difference, Judgement, LinkJudgement, Suggestion, Verdict};
 use crate::check::{Book, Options, Outcome, Screen, Trial, Version};
 use crate::latex::ast::{Kind, Node};
@@ -20,17 +18,14 @@ use crate::latex::{self, to_latex};
 use crate::semantics::{Clause, Scope, Side};
 
 use super::change::{Change, at};
-use super::dots;
-use super::edits::{Found, Walk};
 use super::lexicon::Lexicon;
 use super::likeness;
-use super::mutants::{EditKind, LONGEST, Reach, replaced_at};
-use super::names::Name;
+use super::mutants::{LONGEST, replaced_at};
 use super::near::Near;
 use super::shape::{is_null, times};
 use super::sides::Row;
+use super::singles::Singles;
 use super::tries;
-use super::wider::wider;
 
 /// How many suggestions are made.
 pub const MOST: usize = 3;
@@ -38,8 +33,6 @@ pub const MOST: usize = 3;
 const CONFIRMED: usize = 48;
 /// How many guesses that hold are kept, for a row of sides.
 const HOLDING: usize = 12;
-/// How many factors with an index are put in.
-const INDEXED: usize = 8;
 /// How many formulas are tried whose sides the solved states do not cover.
 const ELSEWHERE: usize = 120;
 
@@ -94,16 +87,20 @@ impl<'b> Search<'b> {
         &self.book.entries[self.index].scope
     }
 
+    fn edits(&self) -> Singles<'_> {
+        Singles { scope: self.scope(), tree: self.tree, near: &self.near }
+    }
+
     fn run(&mut self) -> Vec<(Change, Node)> {
         let Ok(statement) = self.book.statement_of(self.index, self.tree) else { return Vec::new() };
-        let singles = self.singles();
+        let singles = self.edits().all();
         let mut joined = vec![Change::default()];
         for row in rows(&statement.clauses, self.links) {
             if !row.iter().any(|k| self.fails(*k)) {
                 continue;
             }
             let Some(found) = self.row(&statement.clauses, &row, &singles) else {
-                let singles = self.tried();
+                let singles = self.edits().tried();
                 joined = tries::search(&mut self.trial, self.tree, &singles, self.links);
                 break;
             };
@@ -121,68 +118,6 @@ impl<'b> Search<'b> {
 
     fn fails(&self, link: usize) -> bool {
         self.links.get(link).is_none_or(|l| l.verdict > Verdict::Asymptotic)
-    }
-
-    /// All single edits, those of a symbol also in every place at once.
-    fn singles(&self) -> Vec<Change> {
-        // A factor with an index has no value of its own by which it could be found.
-        let half = latex::parse("\\frac{1}{2}").into_iter();
-        let indexed = self.near.indexed(self.scope()).take(INDEXED).cloned();
-        let factors: Vec<Node> = half.chain(indexed).collect();
-        let mut walk = Walk::new(self.scope(), Reach { siblings: None, factors: &factors });
-        walk.visit(self.tree);
-        let found = walk.found.into_iter().chain(wider(self.tree, self.scope(), &self.near));
-        let changes: Vec<(EditKind, Change)> = found.map(|f| (f.edit.kind, self.change(f))).collect();
-        let mut same: HashMap<&[String], Vec<&Change>> = HashMap::new();
-        changes.iter().for_each(|(_, c)| same.entry(&c.edits).or_default().push(c));
-        let mut all: Vec<Change> = Vec::new();
-        for (kind, change) in &changes {
-            // Once for all that say the same, at the first of them.
-            if repeats(*kind)
-                && let Some(same) = same.remove(change.edits.as_slice())
-            {
-                let mut everywhere = change.clone();
-                everywhere.places = same.iter().flat_map(|c| c.places.clone()).collect();
-                if everywhere.places.len() > 1 {
-                    everywhere.edits = vec![format!("{} throughout", change.edits.join("; "))];
-                    everywhere.cost += likeness::THROUGHOUT;
-                    all.push(everywhere);
-                }
-            }
-            all.push(change.clone());
-        }
-        let dots = changes.iter().filter(|(kind, _)| *kind == EditKind::Dot).map(|(_, change)| change);
-        all.extend(dots::shifted(self.scope(), self.tree, dots));
-        all.sort_by_key(|c| c.cost);
-        all
-    }
-
-    /// What is tried where there are no values: single edits with factors put in.
-    fn tried(&self) -> Vec<Change> {
-        let factors = tries::factors(&self.near, self.scope());
-        let mut walk = Walk::new(self.scope(), Reach { siblings: None, factors: &factors });
-        walk.visit(self.tree);
-        let found = walk.found.into_iter().chain(wider(self.tree, self.scope(), &self.near));
-        let mut all: Vec<Change> = found.map(|f| self.change(f)).collect();
-        all.sort_by_key(|c| c.cost);
-        all
-    }
-
-    fn change(&self, found: Found) -> Change {
-        let Found { path, node, edit } = found;
-        let before = at(self.tree, &path).unwrap_or(self.tree);
-        let scope = self.scope();
-        let mut cost = likeness::cost(scope, edit.kind, before, &node);
-        // What a formula is printed for stands by itself: a factor is rather missing elsewhere.
-        let is_side =
-            path.split_last().and_then(|(_, p)| at(self.tree, p)).is_some_and(|p| matches!(p.kind, Kind::Chain { .. }));
-        if is_side && Name::of(scope, before).is_some() && matches!(edit.kind, EditKind::Insert | EditKind::Double) {
-            cost += likeness::SUBJECT;
-        }
-        if let Some(name) = Name::of(scope, &node) {
-            cost += self.near.distance(&name.entry.pattern);
-        }
-        Change::new(path, node, edit.text, cost)
     }
 
     /// What mends a row of sides, the likeliest first; `None` where it cannot be searched by values.
@@ -279,14 +214,6 @@ impl<'b> Search<'b> {
             self.trial.judge(&scaled) == Outcome::Holds
         })
     }
-}
-
-/// Whether an edit is likely to be made in every place at once: what was misread once is misread again.
-fn repeats(kind: EditKind) -> bool {
-    matches!(
-        kind,
-        EditKind::Symbol | EditKind::Index | EditKind::Prime | EditKind::Dot | EditKind::Replace | EditKind::DropFactor
-    )
 }
 
 /// The links of each row of sides that are linked by equality, definitions aside.

@@ -11,7 +11,7 @@ use super::edits::Found;
 use super::mutants::{Edit, EditKind, replaced_at};
 use super::names::{Name, indices, placed, with_indices};
 use super::near::Near;
-use super::shape::{group, is_words, juxt};
+use super::shape::{group, is_words, juxt, starts_with_number, times};
 
 /// How many products take the place of one symbol.
 const PRODUCTS: usize = 24;
@@ -61,6 +61,7 @@ impl Wider<'_> {
                 let null = Node::new(Kind::Number("0".into()), node.span.clone());
                 self.edit(EditKind::Number, node, null, "the number 1 changed to `0`".to_owned());
             }
+            Kind::Sqrt { index: None, body } => self.under_root(body),
             Kind::Text(_) => return,
             _ => {}
         }
@@ -70,6 +71,21 @@ impl Wider<'_> {
             self.visit(child);
             self.path.pop();
         }
+    }
+
+    /// A factor of 2 or ½ lost under a root; of a sum it is lost in its terms.
+    fn under_root(&mut self, body: &Node) {
+        if matches!(body.kind, Kind::Sum(_)) || starts_with_number(body) {
+            return;
+        }
+        let number = |digits: &str| Node::new(Kind::Number(digits.into()), body.span.clone());
+        let half = Kind::Frac(Box::new(number("1")), Box::new(number("2")));
+        self.path.push(0);
+        for (factor, words) in [(number("2"), "doubled"), (Node::new(half, body.span.clone()), "halved")] {
+            let text = format!("`{}` {words} under the root", to_latex(body));
+            self.edit(EditKind::Double, body, times(&factor, body), text);
+        }
+        self.path.pop();
     }
 
     /// The sign of a side that is a sum.

@@ -54,6 +54,8 @@ pub(super) fn judgement(label: &str, kind: &str, link: LinkJudgement) -> Judgeme
         sensitivity: None,
         suggestions: Vec::new(),
         lost_bits: None,
+        inferred: None,
+        suspect: None,
         unfinished: None,
         micros: 118,
         problem: None,
@@ -212,6 +214,7 @@ pub(super) fn run() -> Run {
     let mut equations = vec![definition, identity, damaged, erratum(), approximation(), chain()];
     equations.extend(others());
     let first = DocumentReport {
+        assumed: Vec::new(),
         name: "gyroscope".into(),
         path: "notes/gyroscope.md".into(),
         title: "ジャイロスコープ & <tops>".into(),
@@ -224,6 +227,7 @@ pub(super) fn run() -> Run {
         equations,
     };
     let empty = DocumentReport {
+        assumed: Vec::new(),
         name: "empty".into(),
         path: "notes/empty.md".into(),
         title: "Empty".into(),

@@ -16,8 +16,9 @@ impl Elaborator<'_> {
     pub(super) fn applied(&mut self, function: &Node, group: &Node) -> Result<Option<Typed>> {
         let (group, power) = head_and_power(group);
         let Kind::Group { body, .. } = &group.kind else { return Ok(None) };
-        let names = match self.entry(function) {
-            Some((entry, _)) if matches!(entry.kind, EntryKind::Same(_)) => entry.arguments.clone(),
+        let (names, given) = match self.entry(function) {
+            Some((entry, _)) if matches!(entry.kind, EntryKind::Same(_)) => (entry.arguments.clone(), true),
+            Some((entry, _)) if entry.is_free() => (entry.arguments.clone(), false),
             _ => return Ok(None),
         };
         let arguments = match &body.kind {
@@ -30,6 +31,11 @@ impl Elaborator<'_> {
         if names.iter().zip(&arguments).all(|(name, argument)| *name == spelling(argument)) {
             let value = self.value(function)?;
             return self.with_power(value, power, &group.span).map(Some);
+        }
+        if !given {
+            let message = format!("{} depends on {}, by no formula", spelling(function), names.join(", "));
+            return Err(Error::unsupported(message, &group.span)
+                .with_help("give it by one: same = '..', function = [..]; what it is elsewhere is not known"));
         }
         let values = arguments.iter().map(|argument| self.value(argument)).collect::<Result<Vec<_>>>()?;
         let text = values.iter().map(|v| v.text.as_str()).collect::<Vec<_>>().join(", ");

@@ -280,7 +280,8 @@ impl<'w> Elaborator<'w> {
         if name.starts_with("\\operatorname{lim}") {
             return Error::unsupported("limits are not evaluated yet", &node.span);
         }
-        let error = Error::undeclared(format!("undeclared symbol {name}"), &node.span);
+        let missing = Some(name.clone());
+        let error = Error { missing, ..Error::undeclared(format!("undeclared symbol {name}"), &node.span) };
         match self.scope.suggestion(&name) {
             Some(near) => error
                 .with_help(format!("did you mean {}? Otherwise declare it under [symbols]", near.replace('#', "i"))),

@@ -26,27 +26,29 @@ pub struct Error {
     pub span: Span,
     /// What to do.
     pub help: Option<String>,
+    /// The canonical spelling of the symbol that is not declared, where one is what is lacking.
+    pub missing: Option<String>,
 }
 
 impl Error {
     /// Shapes that do not meet.
     pub fn shape(message: impl Into<String>, span: &Span) -> Self {
-        Error { kind: ErrorKind::Shape, message: message.into(), span: span.clone(), help: None }
+        Error { kind: ErrorKind::Shape, message: message.into(), span: span.clone(), help: None, missing: None }
     }
 
     /// A missing declaration.
     pub fn undeclared(message: impl Into<String>, span: &Span) -> Self {
-        Error { kind: ErrorKind::Undeclared, message: message.into(), span: span.clone(), help: None }
+        Error { kind: ErrorKind::Undeclared, message: message.into(), span: span.clone(), help: None, missing: None }
     }
 
     /// A construction that is not known.
     pub fn unsupported(message: impl Into<String>, span: &Span) -> Self {
-        Error { kind: ErrorKind::Unsupported, message: message.into(), span: span.clone(), help: None }
+        Error { kind: ErrorKind::Unsupported, message: message.into(), span: span.clone(), help: None, missing: None }
     }
 
     /// Something that is too large, or takes too long.
     pub fn limit(message: impl Into<String>, span: &Span) -> Self {
-        Error { kind: ErrorKind::Limit, message: message.into(), span: span.clone(), help: None }
+        Error { kind: ErrorKind::Limit, message: message.into(), span: span.clone(), help: None, missing: None }
     }
 
     /// The same error with advice.

@@ -45,6 +45,7 @@ impl Elaborator<'_> {
 
     fn by_scalar(&mut self, value: &Value, x: Expr, variable: &Node, span: &Span) -> Result<Value> {
         let Op::Symbol(id) = *self.world.graph.node(x) else { return self.by_expression(value, x, variable, span) };
+        self.depends_by_formulas(value, variable, span)?;
         let mut along = false;
         let derivative = value.map(&mut |e| {
             let derivative = self.world.partial(e, id);
@@ -54,6 +55,20 @@ impl Elaborator<'_> {
         match along {
             true => Err(Error::unsupported("a partial derivative of an integral along the motion", span)),
             false => Ok(derivative),
+        }
+    }
+
+    /// What depends on the variable by no formula has a derivative that is not known, and is not 0.
+    fn depends_by_formulas(&mut self, value: &Value, variable: &Node, span: &Span) -> Result<()> {
+        let name = spelling(variable);
+        let symbols = self.world.graph.symbols(&value.components());
+        let unknown = symbols.into_iter().find(|s| self.world.facts(*s).depends.contains(&name));
+        match unknown {
+            None => Ok(()),
+            Some(symbol) => {
+                let message = format!("{} depends on {name}, by no formula", self.world.tex(symbol));
+                Err(Error::unsupported(message, span).with_help("give it by one: same = '..', function = [..]"))
+            }
         }
     }
 

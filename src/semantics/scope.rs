@@ -240,10 +240,19 @@ impl Scope {
     pub fn declare_symbol(&mut self, d: &SymbolDeclaration, problems: &mut Vec<Problem>) {
         let each: Vec<String> =
             d.each.iter().filter_map(|i| parse_name(i, problems)).map(|node| spelling(&node)).collect();
-        let arguments = match &d.function {
+        let mut arguments: Vec<Node> = match &d.function {
             Some(Arguments::Names(names)) => names.iter().filter_map(|n| parse_name(n, problems)).collect(),
             _ => Vec::new(),
         };
+        // What it is a function of, by no formula, may be printed behind it as well.
+        let of = d.of.as_ref().and_then(|of| parse_name(of, problems)).map_or_else(Vec::new, |of| match of.kind {
+            Kind::List(items) => items,
+            _ => vec![of],
+        });
+        let of_t = of.iter().any(|n| spelling(n) == "t");
+        if arguments.is_empty() && of.iter().any(|n| spelling(n) != "t") {
+            arguments = of;
+        }
         let arguments: Vec<String> = arguments.iter().map(spelling).collect();
         let dimension = d.unit.as_ref().and_then(|unit| parse_unit(unit, problems));
         for (position, name) in d.names.iter().enumerate() {
@@ -256,7 +265,7 @@ impl Scope {
             let entry = Entry {
                 pattern: pattern.clone(),
                 kind,
-                of_t: d.of.is_some(),
+                of_t,
                 range: d.range,
                 unit: d.unit.as_ref().map(|u| u.value.clone()),
                 dimension,

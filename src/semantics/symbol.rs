@@ -126,7 +126,8 @@ impl Elaborator<'_> {
     fn scalar_symbol(&mut self, entry: &Entry, name: &str, tex: String) -> Expr {
         let quantity =
             || Quantity { name: entry.pattern.clone(), declared: entry.declared, dimension: entry.dimension };
-        let facts = || Facts { tex, range: entry.range, integer: entry.integer, quantity: Some(quantity()) };
+        let depends = entry.arguments.clone();
+        let facts = || Facts { tex, range: entry.range, integer: entry.integer, quantity: Some(quantity()), depends };
         let id: SymId = self.world.symbol(name, entry.of_t, facts);
         self.world.graph.sym(id)
     }

@@ -27,6 +27,8 @@ pub struct Facts {
     pub integer: bool,
     /// The quantity it is, where it is one.
     pub quantity: Option<Quantity>,
+    /// What it depends on beside the time, by no formula: the names.
+    pub depends: Vec<String>,
 }
 
 /// A physical quantity: what a declaration speaks of, of which vectors and families have many symbols.

@@ -13,7 +13,7 @@ impl Beside for Folder {
     }
 }
 
-fn folder(files: &[(&str, &str)]) -> Document {
+pub fn folder(files: &[(&str, &str)]) -> Document {
     let texts = files.iter().map(|(path, text)| (PathBuf::from(path), (*text).to_owned())).collect();
     let (main, text) = files[0];
     let document = parse_beside(Path::new(main), text, &Folder(texts));
@@ -109,13 +109,21 @@ fn sections_hold_declarations() {
 #[test]
 fn files_that_are_included_are_read_in_order() {
     let document = folder(&[
-        ("course/notes.tex", "\\documentclass{book}\\usepackage{mine}\n\\begin{document}\n\\chapter{A}\n\\begin{equation}\\a\\end{equation}\n\\include{parts/one}\\input parts/two.tex\n\\begin{equation}d\\end{equation}\n\\end{document}"),
+        (
+            "course/notes.tex",
+            "\\documentclass{book}\\usepackage{mine}\n\\begin{document}\n\\chapter{A}\n\\begin{equation}\\a\\end{equation}\n\\include{parts/one}\\input parts/two.tex\n\\begin{equation}d\\end{equation}\n\\end{document}",
+        ),
         ("course/mine.sty", "\\newcommand{\\a}{x}\n\\[ not read \\]"),
         ("course/parts/one.tex", "\n\\begin{equation}b\\label{b}\\end{equation}\n\\import{sub}{three}"),
         ("course/parts/two.tex", "\\renewcommand\\a{y}\\begin{equation}\\a c\\end{equation}"),
         ("course/parts/sub/three.tex", "\\subfile{three} \\begin{equation}e = \\end{equation}"),
     ]);
-    assert_eq!(problems(&document), ["course/parts/sub/three.tex:1:1: `course/parts/sub/three.tex` includes itself. it is read once; remove this line"]);
+    assert_eq!(
+        problems(&document),
+        [
+            "course/parts/sub/three.tex:1:1: `course/parts/sub/three.tex` includes itself. it is read once; remove this line"
+        ]
+    );
     let places: Vec<_> = document
         .equations()
         .map(|e| (e.label.as_str(), e.file.as_deref().map(|p| p.to_str().unwrap()), e.line))
@@ -135,8 +143,14 @@ fn files_that_are_included_are_read_in_order() {
 #[test]
 fn problems_are_told_in_their_own_file() {
     let document = folder(&[
-        ("notes.tex", "\\begin{equation} a \\label{a} \\end{equation}\n\\input{missing}\n\\input{more}\n\\input{/etc/passwd}"),
-        ("more.tex", "% 日本語\n\n日本 \\begin{align} b \\label{a} \\end{align}\n%! givne = ['1']\n\n\\begin{equation} c\n\nText."),
+        (
+            "notes.tex",
+            "\\begin{equation} a \\label{a} \\end{equation}\n\\input{missing}\n\\input{more}\n\\input{/etc/passwd}",
+        ),
+        (
+            "more.tex",
+            "% 日本語\n\n日本 \\begin{align} b \\label{a} \\end{align}\n%! givne = ['1']\n\n\\begin{equation} c\n\nText.",
+        ),
     ]);
     insta::assert_snapshot!(super::messages::rendered_all(&document));
 }
@@ -164,4 +178,18 @@ fn numbers_follow_the_counter() {
          \\section{C}\\setcounter{equation}{6}\\begin{equation}\\label{c}c\\end{equation}",
     );
     assert_eq!(found(&document), ["1.1 [1.1] a", "1.2 [1.2] b", "c [2.7] c"]);
+}
+
+#[test]
+fn references_to_labels_that_do_not_exist_are_warnings() {
+    let body = "\\section{A}\\label{sec:a}\\begin{equation}\\label{eq:one}a\\end{equation}\n\\begin{figure}\\label{fig:b}\\end{figure}\n\
+                See \\eqref{eq:one}, \\ref{sec:a}, \\cref{fig:b,eq:on}, Eq.~(1), \\eqref{eq:two} % \\eqref{no}\n";
+    let document = article(body);
+    let told: Vec<_> = document.problems.iter().map(|p| p.message.as_str()).collect();
+    assert_eq!(told, ["there is no equation `eq:on`", "there is no equation `eq:two`"]);
+    assert_eq!(
+        article(&format!("{body} \\input{{missing}}")).problems.len(),
+        1,
+        "a file is missing that may hold them"
+    );
 }

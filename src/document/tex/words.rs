@@ -109,7 +109,9 @@ pub(super) fn annotation(text: &str) -> Option<(String, usize)> {
         let Some(content) = rest.strip_prefix("%!").filter(|content| !is_magic(content)) else { break };
         toml.extend(std::iter::repeat_n(' ', line.len() - content.len()));
         match content.trim_start().strip_prefix("kenzan") {
-            Some(behind) if toml.trim().is_empty() && (behind.is_empty() || behind.starts_with(char::is_whitespace)) => {
+            Some(behind)
+                if toml.trim().is_empty() && (behind.is_empty() || behind.starts_with(char::is_whitespace)) =>
+            {
                 toml.extend(std::iter::repeat_n(' ', content.len() - behind.len()));
                 toml.push_str(behind);
             }

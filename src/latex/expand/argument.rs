@@ -82,9 +82,7 @@ impl<'a> Expander<'a> {
                 Some(tokens) => Ok(tokens),
                 None => Err(lacks(of, "the brace after it is never closed", "add a `}`")),
             },
-            None | Some(Kind::Close) => {
-                Err(lacks(of, "an argument is missing", &format!("write `{}{{..}}`", of.text)))
-            }
+            None | Some(Kind::Close) => Err(lacks(of, "an argument is missing", &format!("write `{}{{..}}`", of.text))),
             Some(_) => Ok(self.take_next().into_iter().collect()),
         }
     }

@@ -7,7 +7,7 @@ use super::lexer::{Kind, lex};
 use super::{Macro, Parameter};
 
 /// The longest definition that is read, in bytes.
-const LONGEST: usize = 1 << 14;
+const LONGEST: usize = 1 << 12;
 
 /// A macro with its name.
 #[derive(Clone, Debug, PartialEq)]
@@ -143,7 +143,9 @@ impl<'a> Reader<'a> {
     /// What stands in braces; or a single token.
     fn group(&mut self) -> Result<&'a str, Fault> {
         match self.peek() {
-            Some((Kind::Open, _)) => self.between('{', '}').ok_or(Fault("a definition that is not closed", "add a `}`")),
+            Some((Kind::Open, _)) => {
+                self.between('{', '}').ok_or(Fault("a definition that is not closed", "add a `}`"))
+            }
             Some((Kind::Close, _)) | None => {
                 Err(Fault("a definition that says not what the macro stands for", r"write \newcommand{\name}{..}"))
             }
@@ -178,12 +180,10 @@ impl<'a> Reader<'a> {
     /// `[2][default]` of `\newcommand`.
     fn parameters(&mut self) -> Result<Vec<Parameter>, Fault> {
         let Some(count) = self.between('[', ']') else { return Ok(Vec::new()) };
-        let count: usize = count
-            .trim()
-            .parse()
-            .ok()
-            .filter(|count| *count <= 9)
-            .ok_or(Fault("a number of arguments from 0 to 9 is expected", r"write \newcommand{\name}[2]{.. #1 .. #2}"))?;
+        let count: usize = count.trim().parse().ok().filter(|count| *count <= 9).ok_or(Fault(
+            "a number of arguments from 0 to 9 is expected",
+            r"write \newcommand{\name}[2]{.. #1 .. #2}",
+        ))?;
         let mut parameters = vec![Parameter::Mandatory; count];
         if let (Some(default), Some(first)) = (self.between('[', ']'), parameters.first_mut()) {
             *first = Parameter::Optional('[', ']', Some(default.to_owned()));
@@ -273,12 +273,17 @@ fn specification(text: &str) -> Result<Vec<Parameter>, Fault> {
             _ => return Err(fault),
         };
         if let (Some(open), Some(close)) = (open, close) {
-            let default = if kind.is_ascii_uppercase() { Some(braced(&mut rest).ok_or(Fault(fault.0, fault.1))?) } else { None };
+            let default =
+                if kind.is_ascii_uppercase() { Some(braced(&mut rest).ok_or(Fault(fault.0, fault.1))?) } else { None };
             parameters.push(Parameter::Optional(open, close, default));
         }
         rest = rest.trim_start();
     }
-    if parameters.len() > 9 { Err(Fault("a macro takes at most nine arguments", "leave some out")) } else { Ok(parameters) }
+    if parameters.len() > 9 {
+        Err(Fault("a macro takes at most nine arguments", "leave some out"))
+    } else {
+        Ok(parameters)
+    }
 }
 
 /// Takes `{..}` from the beginning of a text.

@@ -153,6 +153,11 @@ impl Macros {
         Macros { all: Arc::clone(all), until }
     }
 
+    /// Those of all definitions.
+    pub fn all(all: &Definitions) -> Self {
+        Macros { until: all.count, all: Arc::new(all.clone()) }
+    }
+
     /// What a macro of the notes stands for.
     fn find(&self, name: &str) -> Option<&Macro> {
         let meanings = self.all.defined.get(name)?;
@@ -176,7 +181,8 @@ impl Macros {
         }
         let mut expander = Expander { macros: self, waiting: Vec::new(), made: 0, expanded: Expanded::default() };
         let tokens = tokens.into_iter().rev();
-        let token = |(kind, origin): (Kind, Span)| Token { text: &source[origin.clone()], kind, origin, ..Token::new("") };
+        let token =
+            |(kind, origin): (Kind, Span)| Token { text: &source[origin.clone()], kind, origin, ..Token::new("") };
         expander.waiting.extend(tokens.map(token));
         expander.run()?;
         Ok(expander.expanded)

@@ -78,8 +78,7 @@ static PACKAGED: LazyLock<HashMap<&'static str, Packaged>> = LazyLock::new(|| {
     all
 });
 
-const FUNCTIONS_WITH_POWERS: &str =
-    "sin cos tan sec csc cot arcsin arccos arctan sinh cosh tanh sech csch coth log ln";
+const FUNCTIONS_WITH_POWERS: &str = "sin cos tan sec csc cot arcsin arccos arctan sinh cosh tanh sech csch coth log ln";
 
 /// Names, arguments, body.
 type Table = &'static [(&'static str, &'static str, &'static str)];
@@ -130,7 +129,11 @@ const PHYSICS: Table = &[
     ("qwhere", "", r"\quad\text{where}\quad"),
     ("qfor", "", r"\quad\text{for}\quad"),
     ("qwith", "", r"\quad\text{with}\quad"),
-    ("mqty matrixquantity", "d() g", r"\IfValueT{#1}{\begin{pmatrix}#1\end{pmatrix}}\IfValueT{#2}{\begin{matrix}#2\end{matrix}}"),
+    (
+        "mqty matrixquantity",
+        "d() g",
+        r"\IfValueT{#1}{\begin{pmatrix}#1\end{pmatrix}}\IfValueT{#2}{\begin{matrix}#2\end{matrix}}",
+    ),
     ("pmqty", "m", r"\begin{pmatrix}#1\end{pmatrix}"),
     ("bmqty", "m", r"\begin{bmatrix}#1\end{bmatrix}"),
     ("vmqty mdet", "m", r"\begin{vmatrix}#1\end{vmatrix}"),

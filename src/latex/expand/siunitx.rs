@@ -154,7 +154,8 @@ fn size(text: &str) -> Option<Size> {
             "cubic" => before = Some(3),
             "raiseto" => before = Some(exponent(&mut rest)?),
             _ => {
-                if let Some((_, _, ten)) = PREFIXES.iter().find(|p| is_macro && p.0.split(' ').any(|name| name == word)) {
+                if let Some((_, _, ten)) = PREFIXES.iter().find(|p| is_macro && p.0.split(' ').any(|name| name == word))
+                {
                     prefix += ten;
                 } else {
                     finish(&mut last, &mut size);
@@ -261,7 +262,8 @@ fn write(expander: &mut Expander, token: &Token, number: &str, size: &Size) {
 }
 
 fn sized(token: &Token, unit: &str) -> Result<Size, ParseError> {
-    let unknown = || lacks(token, &format!("the unit `{}` is not known", unit.trim()), r"for example \metre\per\second");
+    let unknown =
+        || lacks(token, &format!("the unit `{}` is not known", unit.trim()), r"for example \metre\per\second");
     size(unit).ok_or_else(unknown)
 }
 

@@ -1,0 +1,131 @@
+//! What an equation may follow from: the displays before it, and the inline formulas around it.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use crate::check::{Book, Version};
+use crate::document::{Document, Span};
+use crate::expr::SymId;
+use crate::latex::{
+    self,
+    ast::{Kind, Node, Rel},
+};
+use crate::semantics::{self, Clause, Scope, Side, World};
+
+use super::evidence::is_name;
+
+/// A formula that an equation may follow from.
+#[derive(Clone, Debug)]
+pub struct Candidate {
+    /// What it is.
+    pub source: Origin,
+    /// Where it stands in the file.
+    pub span: Span,
+    /// The symbols it speaks of, derivatives as what they are derivatives of.
+    pub symbols: BTreeSet<String>,
+    /// The number of equations between scalars that it makes.
+    pub equations: usize,
+    /// Whether it has what depends on the time, so that its derivatives say more than it does.
+    pub moves: bool,
+    /// The symbols of which it has rates.
+    pub rates: BTreeSet<String>,
+}
+
+/// Where a candidate comes from.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Origin {
+    /// A display: its number in the book and its label.
+    Display(usize, String),
+    /// An inline formula: its LaTeX.
+    Inline(String),
+}
+
+/// The candidates of a document, in the order of the file.
+pub fn candidates(book: &Book, document: &Document) -> Vec<Candidate> {
+    let mut found = Vec::new();
+    for (index, entry) in book.entries.iter().enumerate() {
+        let Ok(statement) = book.statement(index, Version::Printed) else { continue };
+        let origin = Origin::Display(index, entry.equation.label.clone());
+        found.extend(candidate(origin, entry.equation.span.clone(), &entry.scope, &statement.clauses));
+    }
+    for span in &document.formulas {
+        let latex = document.formula(span);
+        let Some(scope) = scope_at(book, span.start) else { continue };
+        let Ok(tree) = latex::parse(latex) else { continue };
+        let Ok(statement) = semantics::statement(&tree, None) else { continue };
+        found.extend(candidate(Origin::Inline(latex.to_owned()), span.clone(), scope, &statement.clauses));
+    }
+    found.sort_by_key(|c| c.span.start);
+    found
+}
+
+/// The declarations in force where an inline formula stands: those of the display before it, or of the first one.
+fn scope_at(book: &Book, at: usize) -> Option<&Scope> {
+    let before = book.entries.iter().rev().find(|e| e.equation.span.start <= at);
+    before.or(book.entries.first()).map(|e| e.scope.as_ref())
+}
+
+/// A candidate, where all that is stated are equalities that can be understood.
+fn candidate(source: Origin, span: Span, scope: &Scope, clauses: &[Clause]) -> Option<Candidate> {
+    if clauses.is_empty() || !clauses.iter().all(|c| matches!(c.rel, Rel::Eq | Rel::Equiv)) {
+        return None;
+    }
+    if matches!(source, Origin::Inline(_)) && clauses.iter().any(is_condition) {
+        return None;
+    }
+    let Spoken { symbols, equations, moves, rates } = Spoken::of(scope, clauses)?;
+    Some(Candidate { source, span, symbols, equations, moves, rates })
+}
+
+/// Whether an inline formula says for which value something is said, `t = 0`, `x = l`, and not what is so.
+fn is_condition(clause: &Clause) -> bool {
+    let plain = |n: &Node| is_name(n) || matches!(n.kind, Kind::Number(_));
+    is_name(&clause.lhs) && matches!(&clause.rhs, Side::Node(n) if plain(n))
+}
+
+/// What clauses speak of.
+#[derive(Clone, Debug)]
+pub struct Spoken {
+    /// The symbols, derivatives as what they are derivatives of.
+    pub symbols: BTreeSet<String>,
+    /// The number of scalar equations.
+    pub equations: usize,
+    /// Whether something depends on the time.
+    pub moves: bool,
+    /// The symbols of which they have rates.
+    pub rates: BTreeSet<String>,
+}
+
+impl Spoken {
+    /// Reads clauses; none where they cannot be understood, or say nothing of any symbol.
+    pub fn of(scope: &Scope, clauses: &[Clause]) -> Option<Self> {
+        let mut world = World::new();
+        let mut all = Vec::new();
+        let mut equations = 0;
+        for clause in clauses {
+            let link = semantics::understand(&mut world, scope, clause, true).ok()?;
+            for instance in &link.instances {
+                all.extend(instance.lhs.components());
+                if clause.rhs != Side::Constant {
+                    all.extend(instance.rhs.components());
+                }
+                equations += instance.lhs.components().len();
+            }
+        }
+        let ids: BTreeSet<SymId> = world.graph.symbols(&all);
+        let base = |id: &SymId| world.graph.info(*id).base;
+        let symbols: BTreeSet<String> = ids.iter().map(|id| world.graph.info(base(id)).name.clone()).collect();
+        let rates = ids.iter().filter(|id| world.graph.info(**id).order > 0);
+        let rates: BTreeSet<String> = rates.map(|id| world.graph.info(base(id)).name.clone()).collect();
+        let moves = !rates.is_empty() || symbols.contains("t");
+        (!symbols.is_empty()).then_some(Spoken { symbols, equations, moves, rates })
+    }
+}
+
+/// How often each symbol occurs among some candidates.
+pub fn occurrences<'c>(candidates: impl Iterator<Item = &'c Candidate>) -> BTreeMap<&'c str, usize> {
+    let mut count = BTreeMap::new();
+    for candidate in candidates {
+        candidate.symbols.iter().for_each(|s| *count.entry(s.as_str()).or_insert(0) += 1);
+    }
+    count
+}

@@ -1,0 +1,85 @@
+//! What a quantity is as a function: where a derivative of it is taken by something else than the time, the notes have
+//! said before what it is, `\phi = Q / 4 \pi \varepsilon_0 r`.
+
+use std::sync::Arc;
+
+use crate::check::{Book, Version};
+use crate::document::{Arguments, Document, Spanned, SymbolDeclaration};
+use crate::latex::ast::{Delim, Kind, Node};
+use crate::latex::{self, to_latex};
+use crate::semantics::{self, spelling};
+
+use super::evidence::{Evidence, names};
+
+/// Declares, for each equation with such a derivative, what is derived by the last formula for it before.
+pub fn declare_functions(book: &mut Book, document: &Document) {
+    let mut known: Vec<(usize, Node)> = Vec::new();
+    for entry in &book.entries {
+        if let Ok(tree) = &entry.formula(Version::Printed).tree {
+            known.push((entry.equation.span.start, tree.clone()));
+        }
+    }
+    for span in &document.formulas {
+        let latex = document.formula(span);
+        known.extend(latex::parse(latex).ok().map(|tree| (span.start, tree)));
+    }
+    known.sort_by_key(|(at, _)| *at);
+    for index in 0..book.entries.len() {
+        let entry = &book.entries[index];
+        let Ok(tree) = &entry.formula(Version::Printed).tree else { continue };
+        let mut evidence = Evidence::default();
+        evidence.look(tree);
+        let at = entry.equation.span.start;
+        let mut declarations = Vec::new();
+        for (name, variables) in &evidence.derived {
+            let before = known.iter().rev().filter(|(place, _)| *place < at);
+            let formula = before.into_iter().find_map(|(_, tree)| formula(tree, name, variables.iter()));
+            declarations.extend(formula.map(|f| declaration(name, variables.iter(), &f, at)));
+        }
+        if !declarations.is_empty() {
+            let scope = entry.scope.with_local(&declarations, &mut Vec::new());
+            book.entries[index].scope = Arc::new(scope);
+        }
+    }
+}
+
+/// A side beside a name (perhaps with its arguments) that speaks of the variables and not of the name.
+fn formula<'v>(tree: &Node, name: &str, variables: impl Iterator<Item = &'v String>) -> Option<Node> {
+    let variables: Vec<&String> = variables.collect();
+    let statement = semantics::statement(tree, None).ok()?;
+    let is_it = |side: &Node| match &side.kind {
+        Kind::Juxt(factors) => {
+            matches!(factors.as_slice(), [head, Node { kind: Kind::Group { open: Delim::Paren, .. }, .. }] if spelling(head) == name)
+        }
+        _ => spelling(side) == name,
+    };
+    let mut is_side = false;
+    let mut found = None;
+    for clause in &statement.clauses {
+        is_side = if clause.continued { is_side } else { is_it(&clause.lhs) };
+        let semantics::Side::Node(rhs) = &clause.rhs else { continue };
+        let mut mentioned = Vec::new();
+        names(rhs, &mut |n| mentioned.push(n));
+        let fits = variables.iter().all(|v| mentioned.contains(v)) && !mentioned.iter().any(|n| n == name);
+        if is_side && fits {
+            found = Some(rhs.clone());
+        }
+    }
+    found
+}
+
+fn declaration<'v>(
+    name: &str,
+    variables: impl Iterator<Item = &'v String>,
+    formula: &Node,
+    at: usize,
+) -> SymbolDeclaration {
+    let text = |value: &str| Spanned::new(value.to_owned(), at..at + value.len());
+    SymbolDeclaration {
+        names: vec![text(name)],
+        function: Some(Arguments::Names(variables.map(|v| text(v)).collect())),
+        same: Some(text(&to_latex(formula))),
+        span: at..at,
+        ..SymbolDeclaration::default()
+    }
+}

@@ -1,0 +1,240 @@
+//! The judgement on an equation of notes that declare nothing.
+
+use std::collections::BTreeSet;
+
+use crate::check::verdict::{Inferred, Judgement, LinkJudgement, Strength, Verdict};
+use crate::check::{self, Book, Options};
+use crate::document::{Document, Spanned};
+use crate::semantics::{Clause, spelling};
+
+use super::candidates::{Candidate, Spoken, candidates};
+use super::desk::{Basis, Desk};
+use super::premises;
+use super::references::named;
+use super::roles::{Guess, Role};
+use super::suspects::{self, Found};
+
+/// What the equations of a document may follow from.
+pub struct Ground {
+    /// All formulas that may be premises.
+    pub candidates: Vec<Candidate>,
+    /// For each equation those that the prose around it names.
+    named: Vec<BTreeSet<usize>>,
+    /// The guessed roles.
+    guesses: Vec<Guess>,
+}
+
+impl Ground {
+    /// Looks through a document that has been given the guessed declarations.
+    pub fn new(book: &Book, document: &Document, guesses: Vec<Guess>) -> Self {
+        let named = (0..book.entries.len()).map(|k| named(book, document, k)).collect();
+        Ground { candidates: candidates(book, document), named, guesses }
+    }
+
+    /// Judges an equation. Where an annotation says what it follows from or what it is, that alone counts. `book` is one's
+    /// own: it is changed at this equation, and changed back.
+    pub fn judge(&self, book: &mut Book, index: usize, options: &Options) -> Judgement {
+        if book.entries[index].equation.annotation.is_some() {
+            return check::judge(book, index, options);
+        }
+        let own = book.entries[index].equation.clone();
+        let judgement = self.inferred(book, index, options);
+        book.entries[index].equation = own;
+        judgement
+    }
+
+    fn inferred(&self, book: &mut Book, index: usize, options: &Options) -> Judgement {
+        let first = check::judge(book, index, options);
+        let failing: Vec<usize> = (0..first.links.len()).filter(|k| fails(&first.links[*k])).collect();
+        match first.verdict {
+            Verdict::Holds => return self.with_signs(book, index, first, true, options),
+            Verdict::Fails if failing.is_empty() => return misshapen(first),
+            Verdict::Fails => {}
+            _ => return lacking(first),
+        }
+        let mut desk = Desk { book, index, link: 0, taken: Vec::new(), all: &self.candidates, options };
+        let clauses = desk.clauses();
+        let mut open = Vec::new();
+        for link in failing {
+            desk.link = link;
+            if desk.search(&self.bases(&desk, &clauses)).is_none() {
+                if !clauses[link].continued {
+                    desk.taken.push(link);
+                }
+                open.push(link);
+            }
+        }
+        let solution = self.solution(&mut desk, &clauses, &open);
+        let found = match solution {
+            true => None,
+            false => open.iter().find_map(|link| {
+                desk.link = *link;
+                let bases = self.bases(&desk, &clauses);
+                suspects::search(&mut desk, &bases, &first.links)
+            }),
+        };
+        let open = if solution { Vec::new() } else { open };
+        let judgement = conclude(&mut desk, &clauses, &open);
+        match found {
+            Some(found) => suspected(judgement, found),
+            None if judgement.verdict == Verdict::Holds => self.with_signs(book, index, judgement, false, options),
+            None => judgement,
+        }
+    }
+
+    /// What the link at hand may follow from.
+    fn bases(&self, desk: &Desk, clauses: &[Clause]) -> Vec<Basis> {
+        let Some((nearby, target)) = self.nearby(desk, clauses) else { return Vec::new() };
+        let alone = (!desk.taken.is_empty()).then(Basis::default);
+        alone.into_iter().chain(premises::bases(&nearby, &self.candidates, &target)).collect()
+    }
+
+    /// The candidates for the link at hand, and what it speaks of together with the links that are taken as given.
+    fn nearby(&self, desk: &Desk, clauses: &[Clause]) -> Option<(Vec<usize>, Spoken)> {
+        let spoken = desk.taken.iter().chain([&desk.link]).filter_map(|k| clauses.get(*k)).cloned();
+        let target = Spoken::of(&desk.book.entries[desk.index].scope, &spoken.collect::<Vec<_>>())?;
+        let named = &self.named[desk.index];
+        Some((premises::nearby(desk.book, desk.index, &self.candidates, named, &target), target))
+    }
+
+    /// Whether the equation solves one before it.
+    fn solution(&self, desk: &mut Desk, clauses: &[Clause], open: &[usize]) -> bool {
+        let Some(link) = open.iter().copied().find(|k| !clauses[*k].continued) else { return false };
+        desk.link = link;
+        let unknown = spelling(&clauses[link].lhs);
+        let Some((nearby, target)) = self.nearby(desk, clauses) else { return false };
+        let solutions = premises::solutions(&nearby, &self.candidates, &unknown, &target);
+        desk.search(&solutions).is_some()
+    }
+
+    /// What holds for positive values is tried with numbers of either sign, where nothing says that they are positive. An
+    /// identity that needs a sign is undecided; of what follows from premises it is told.
+    fn with_signs(
+        &self,
+        book: &mut Book,
+        index: usize,
+        mut judgement: Judgement,
+        identity: bool,
+        options: &Options,
+    ) -> Judgement {
+        let numbers = self.numbers(book, index);
+        let few = Options { states: options.states.min(12), evidence: false, ..options.clone() };
+        let mut fails = |names: &[String], range: [f64; 2]| {
+            let ranges = names.iter().map(|n| (Spanned::new(n.clone(), 0..0), range)).collect();
+            book.entries[index].equation.annotation.get_or_insert_default().range = ranges;
+            check::judge(book, index, &few).verdict == Verdict::Fails
+        };
+        if numbers.is_empty() || !fails(&numbers, [-2.0, 2.0]) {
+            return judgement;
+        }
+        let alone: Vec<&String> = numbers.iter().filter(|n| fails(std::slice::from_ref(n), [-2.0, -0.3])).collect();
+        let needed = if alone.is_empty() { numbers.iter().collect() } else { alone };
+        let needs: Vec<String> = needed.iter().map(|n| format!("{n} > 0")).collect();
+        if identity {
+            let reason = format!("needs ${}$: it holds where this is so, and not elsewhere", needs.join("$, $"));
+            judgement.verdict = Verdict::Undecided;
+            judgement.reason = Some(reason);
+            judgement.as_expected = true;
+        }
+        judgement.inferred.get_or_insert_default().needs = needs;
+        judgement
+    }
+
+    /// The numbers of either sign that an equation mentions.
+    fn numbers(&self, book: &Book, index: usize) -> Vec<String> {
+        let mentions = &book.entries[index].mentions;
+        let plain = |g: &&Guess| matches!(g.role, Role::Number | Role::Angle) && g.each.is_empty();
+        let guesses = self.guesses.iter().filter(plain);
+        guesses.filter(|g| mentions.contains_key(&g.name)).map(|g| g.name.clone()).collect()
+    }
+}
+
+/// Whether a link fails at states, and not by its shape.
+fn fails(link: &LinkJudgement) -> bool {
+    link.verdict == Verdict::Fails && link.strength != Some(Strength::Shape)
+}
+
+/// What cannot be judged for want of a declaration is no surprise in notes that have none.
+fn lacking(mut judgement: Judgement) -> Judgement {
+    judgement.as_expected |= judgement.verdict == Verdict::Undecided;
+    judgement
+}
+
+/// Shapes that do not meet may be those of a wrong guess.
+fn misshapen(mut judgement: Judgement) -> Judgement {
+    let reason = judgement.reason.take().unwrap_or_default();
+    judgement.reason =
+        Some(format!("with the roles that are guessed its shapes do not meet: {reason}; declare what its symbols are"));
+    for link in judgement.links.iter_mut().filter(|l| l.verdict == Verdict::Fails) {
+        (link.verdict, link.strength) = (Verdict::Undecided, None);
+    }
+    (judgement.verdict, judgement.strength) = (Verdict::Undecided, None);
+    judgement.as_expected = true;
+    judgement
+}
+
+/// The judgement with the premises that were found. What follows from nothing is new; but a link that continues another
+/// one was to follow.
+fn conclude(desk: &mut Desk, clauses: &[Clause], open: &[usize]) -> Judgement {
+    let new = !open.is_empty() && open.iter().all(|k| !clauses[*k].continued);
+    desk.say_kind(new.then_some("law"));
+    let mut judgement = check::judge(desk.book, desk.index, desk.options);
+    let links = desk.book.entries[desk.index].annotation().into_iter().flat_map(|a| &a.link);
+    let values = |texts: &[Spanned<String>]| texts.iter().map(|t| t.value.clone()).collect::<Vec<String>>();
+    let links = links.map(|l| (l.number, values(&l.given), values(&l.where_))).collect();
+    let once = |mut names: Vec<String>| {
+        let mut seen = BTreeSet::new();
+        names.retain(|n| seen.insert(n.clone()));
+        names
+    };
+    judgement.given = once(judgement.given);
+    judgement.assumptions = once(judgement.assumptions);
+    let (given, formulas) = (judgement.given.clone(), judgement.assumptions.clone());
+    judgement.inferred = Some(Inferred { given, formulas, new: !open.is_empty(), needs: Vec::new(), links });
+    for k in open {
+        let Some(link) = judgement.links.get_mut(*k) else { continue };
+        if link.verdict == Verdict::Definition {
+            link.reason = Some("new here: it follows from nothing before it".into());
+        } else if link.verdict == Verdict::Fails && !without_symbols(link) {
+            (link.verdict, link.strength, link.counterexample) = (Verdict::Undecided, None, None);
+            link.reason =
+                Some("it does not follow from what stands before it: needs a premise, or has a misprint".into());
+        }
+    }
+    if !open.is_empty() {
+        let worst = judgement.links.iter().max_by_key(|l| l.verdict);
+        judgement.verdict = worst.map_or(judgement.verdict, |l| l.verdict);
+        judgement.reason =
+            judgement.links.iter().find(|l| l.verdict == judgement.verdict).and_then(|l| l.reason.clone());
+        judgement.counterexample = judgement.links.iter().find_map(|l| l.counterexample.clone());
+        judgement.strength = judgement.strength.filter(|_| judgement.verdict == Verdict::Fails);
+    }
+    judgement.as_expected = !matches!(judgement.verdict, Verdict::Fails | Verdict::Unreadable);
+    judgement
+}
+
+/// Whether a link speaks of numbers alone, so that no premise could make it true.
+fn without_symbols(link: &LinkJudgement) -> bool {
+    link.counterexample.as_ref().is_some_and(|c| c.state.is_empty())
+}
+
+/// The judgement on an equation that one edit would make follow.
+fn suspected(mut judgement: Judgement, Found { suspect, contradicts }: Found) -> Judgement {
+    let premises = list(&suspect.premises);
+    let follows = if premises.is_empty() { "be an identity".into() } else { format!("follow from {premises}") };
+    let (verdict, reason) = match contradicts {
+        true => (Verdict::Fails, format!("it contradicts {premises}: no state satisfies all")),
+        false => (Verdict::Undecided, "it does not follow from what stands before it".to_owned()),
+    };
+    judgement.verdict = verdict;
+    judgement.as_expected = false;
+    judgement.reason = Some(format!("{reason}; with one edit it would {follows}: {}", suspect.edit));
+    judgement.suspect = Some(suspect);
+    judgement
+}
+
+/// Premises in a sentence: labels in brackets.
+fn list(premises: &[String]) -> String {
+    let name = |p: &String| if p.starts_with('$') { p.clone() } else { format!("({p})") };
+    premises.iter().map(name).collect::<Vec<_>>().join(", ")
+}
