@@ -126,7 +126,8 @@ mod tests {
     fn a_label_means_the_last_before() {
         let none: &[&str] = &[];
         let holds = Verdict::Holds;
-        let graph = Graph::of(&document(&[("1", none, holds), ("1", none, holds), ("2", &["1"], holds), ("1", none, holds)]));
+        let graph =
+            Graph::of(&document(&[("1", none, holds), ("1", none, holds), ("2", &["1"], holds), ("1", none, holds)]));
         assert_eq!(graph.premises[2], [Premise { equation: 1, found: false }]);
     }
 }

@@ -166,7 +166,11 @@ impl Grid {
                 let neighbours = if down { &self.above } else { &self.below };
                 let mean = |cell: usize| {
                     let at = &neighbours[cell];
-                    if at.is_empty() { place[cell] } else { at.iter().map(|n| place[*n]).sum::<f64>() / at.len() as f64 }
+                    if at.is_empty() {
+                        place[cell]
+                    } else {
+                        at.iter().map(|n| place[*n]).sum::<f64>() / at.len() as f64
+                    }
                 };
                 let mut keyed: Vec<(f64, usize)> = self.rows[l].iter().map(|c| (mean(*c), *c)).collect();
                 keyed.sort_by(|a, b| a.0.total_cmp(&b.0));

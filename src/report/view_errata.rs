@@ -117,7 +117,8 @@ fn differences(j: &Judgement, builder: &Builder<'_>) -> Vec<String> {
     let counted = worst.map(|l| escape(&with(w.sheet_differ, &[("n", &l.failing_states), ("m", &l.states)])));
     let certified = (j.strength == Some(Strength::Certified)).then(|| w.sheet_certified.to_owned());
     let reason = super::text::reason(j).map(|r| builder.reason(r));
-    let dimensions = j.dimension_findings.iter().map(|f| with(w.dimensions, &[("text", &builder.renderer.prose(&f.message))]));
+    let dimensions =
+        j.dimension_findings.iter().map(|f| with(w.dimensions, &[("text", &builder.renderer.prose(&f.message))]));
     counted.into_iter().chain(certified).chain(reason).chain(dimensions).collect()
 }
 
@@ -151,13 +152,14 @@ const SIGNS: [char; 3] = ['\u{f0001}', '\u{f0002}', '\u{f0003}'];
 /// The two sources, with what goes as `del` and what comes as `ins`.
 fn change(printed: &str, corrected: &str) -> Option<String> {
     let clean = |text: &str| text.replace(SIGNS, "");
-    let marks = [|part: &str| format!("{}{part}{}", SIGNS[0], SIGNS[2]), |part: &str| format!("{}{part}{}", SIGNS[1], SIGNS[2])];
+    let marks = [
+        |part: &str| format!("{}{part}{}", SIGNS[0], SIGNS[2]),
+        |part: &str| format!("{}{part}{}", SIGNS[1], SIGNS[2]),
+    ];
     let (before, after) = mark_by(&clean(printed), &clean(corrected), marks)?;
     let html = |text: &str, element: &str| {
         let escaped = escape(text.trim());
-        escaped
-            .replace([SIGNS[0], SIGNS[1]], &format!("<{element}>"))
-            .replace(SIGNS[2], &format!("</{element}>"))
+        escaped.replace([SIGNS[0], SIGNS[1]], &format!("<{element}>")).replace(SIGNS[2], &format!("</{element}>"))
     };
     Some(format!("<code>{}</code> → <code>{}</code>", html(&before, "del"), html(&after, "ins")))
 }

@@ -82,7 +82,11 @@ pub(super) fn printed(suspect: &Suspect) -> Option<String> {
 pub(super) fn assumed(document: &DocumentReport, builder: &Builder<'_>) -> Vec<AssumedView> {
     let view = |a: &Assumed| {
         let role = builder.options.language.say(&a.role);
-        let moves = if a.moves { format!("{}{}", builder.words.list_comma, builder.words.assumed_moves) } else { String::new() };
+        let moves = if a.moves {
+            format!("{}{}", builder.words.list_comma, builder.words.assumed_moves)
+        } else {
+            String::new()
+        };
         AssumedView {
             symbol_html: builder.renderer.inline(&a.symbol),
             role: format!("{role}{moves}"),

@@ -129,7 +129,8 @@ impl<'a> Mapper<'a> {
     fn svg(&self, own: &[usize], title: &str) -> String {
         let mut shown = own.to_vec();
         let mut edges = Vec::new();
-        let mut places: std::collections::HashMap<usize, usize> = own.iter().enumerate().map(|(k, e)| (*e, k)).collect();
+        let mut places: std::collections::HashMap<usize, usize> =
+            own.iter().enumerate().map(|(k, e)| (*e, k)).collect();
         for (k, equation) in own.iter().enumerate() {
             for premise in &self.graph.premises[*equation] {
                 let from = *places.entry(premise.equation).or_insert_with(|| {
@@ -142,8 +143,10 @@ impl<'a> Mapper<'a> {
         let nodes: Vec<Node> = shown.iter().map(|e| Node { width: self.width(*e) }).collect();
         let ends: Vec<(usize, usize)> = edges.iter().map(|e| (e.from, e.to)).collect();
         let drawing = layers::draw(&nodes, &ends, &SPACING);
-        let (width, height) =
-            (drawing.width + 2.0 * MARGIN, drawing.layers as f64 * SPACING.layer - SPACING.layer + HEIGHT + 2.0 * MARGIN);
+        let (width, height) = (
+            drawing.width + 2.0 * MARGIN,
+            drawing.layers as f64 * SPACING.layer - SPACING.layer + HEIGHT + 2.0 * MARGIN,
+        );
         // From the top of the first layer's nodes, not from that of the layer.
         let top = (SPACING.layer - HEIGHT) / 2.0;
         let mut svg = format!(
@@ -265,7 +268,16 @@ fn curve(way: &[(f64, f64)]) -> String {
             None => write!(d, "M{} {}", short(*x), short(y)),
             Some((px, py)) => {
                 let middle = (py + y) / 2.0;
-                write!(d, " C{} {} {} {} {} {}", short(px), short(middle), short(*x), short(middle), short(*x), short(y))
+                write!(
+                    d,
+                    " C{} {} {} {} {} {}",
+                    short(px),
+                    short(middle),
+                    short(*x),
+                    short(middle),
+                    short(*x),
+                    short(y)
+                )
             }
         };
         before = Some((*x, y));
