@@ -240,7 +240,7 @@ fn show_problems(verified: &Verified) {
 /// A label that is asked for and is nowhere is an error: silence would look like success.
 fn check_labels(request: &Request, verified: &[Verified]) -> miette::Result<()> {
     for label in &request.only {
-        if !verified.iter().any(|v| v.report.equations.iter().any(|e| e.label == *label)) {
+        if !verified.iter().any(|v| v.report.equations.iter().any(|e| e.label == *label || e.numbers.contains(label))) {
             return Err(miette::miette!(
                 help = "labels are as printed; see the report for those of displays without a number",
                 "there is no equation {label}"

@@ -28,7 +28,14 @@ fn write(
     judgement: &Judgement,
     options: &Options,
 ) -> std::fmt::Result {
-    writeln!(out, "({}) {}:{}  {}", judgement.label, document.path.display(), judgement.line, judgement.section)?;
+    writeln!(
+        out,
+        "({}) {}:{}  {}",
+        judgement.label,
+        document.file(book.entries[index].equation.span.start).display(),
+        judgement.line,
+        judgement.section
+    )?;
     writeln!(out, "\n  {}\n", judgement.latex.trim())?;
     if let Some(reading) = &judgement.reading {
         writeln!(out, "read as: {reading}")?;

@@ -4,10 +4,14 @@ use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
 use crate::document::{Declarations, Document, Equation, EquationAnnotation, Item, LinkPremises, Problem, Spanned};
+use crate::latex::expand::{Expanded, Macros};
 use crate::latex::{self, ParseError, ast::Node};
 use crate::semantics::{self, Scope, Statement};
 
 use super::circle::{Circle, circles};
+use super::entries::Entries;
+use super::formulas::Formulas;
+use crate::trace::{self, unrecorded};
 
 /// The longest formula that is judged, in bytes: ten pages.
 const LONGEST: usize = 1 << 16;
@@ -18,17 +22,37 @@ const LONGEST_CHAIN: usize = 100;
 /// A formula in LaTeX with its tree.
 #[derive(Clone, Debug)]
 pub struct Formula {
-    /// The LaTeX that was parsed.
+    /// The LaTeX that was parsed, its macros expanded.
     pub latex: String,
+    /// Where what was parsed comes from.
+    pub expanded: Expanded,
     /// Its tree, or why it could not be read.
     pub tree: Result<Node, ParseError>,
 }
 
 impl Formula {
-    /// Reads LaTeX.
+    /// Reads LaTeX whose macros have been expanded.
     pub fn new(latex: &str) -> Self {
-        let tree = if latex.len() <= LONGEST { latex::parse(latex) } else { Err(too_long(latex)) };
-        Formula { latex: latex.to_owned(), tree }
+        Self::read(Expanded::verbatim(latex))
+    }
+
+    /// Reads LaTeX with macros. An error of their expansion is placed in the LaTeX as it is written.
+    pub fn with_macros(latex: &str, macros: &Macros) -> Self {
+        match macros.expand(latex.get(..LONGEST + 1).unwrap_or(latex)) {
+            Ok(expanded) => Self::read(expanded),
+            Err(error) => Formula { tree: Err(error), ..Self::read(Expanded::verbatim(latex)) },
+        }
+    }
+
+    /// A formula that has been made and not printed.
+    pub fn made(latex: String, tree: Node) -> Self {
+        Formula { expanded: Expanded::verbatim(&latex), latex, tree: Ok(tree) }
+    }
+
+    fn read(expanded: Expanded) -> Self {
+        let latex = expanded.text.clone();
+        let tree = if latex.len() <= LONGEST { latex::parse(&latex) } else { Err(too_long(&latex)) };
+        Formula { latex, expanded, tree }
     }
 }
 
@@ -56,11 +80,11 @@ pub struct Entry {
     /// The heading it stands under.
     pub section: String,
     /// The formula as printed, its label blanked out.
-    pub printed: Formula,
+    pub printed: Arc<Formula>,
     /// The `reading`.
-    pub reading: Option<Formula>,
+    pub reading: Option<Arc<Formula>>,
     /// The `correction`.
-    pub correction: Option<Formula>,
+    pub correction: Option<Arc<Formula>>,
     /// The equation before it, which it continues if it begins with a relation.
     pub previous: Option<usize>,
     /// The declared symbols it mentions: the pattern, and where it is declared, which tells apart the symbols of different
@@ -114,10 +138,12 @@ impl Entry {
 #[derive(Clone, Debug, Default)]
 pub struct Book {
     /// The equations in order.
-    pub entries: Vec<Entry>,
+    pub entries: Entries,
     /// What is wrong with the declarations.
     pub problems: Vec<Problem>,
     labels: HashMap<String, usize>,
+    /// The numbers that LaTeX prints beside equations that the notes call by other names.
+    numbers: HashMap<String, usize>,
     /// The equations that mention a symbol, in order, by its pattern.
     mentioned: HashMap<String, Vec<usize>>,
     circles: HashMap<usize, Circle>,
@@ -126,6 +152,12 @@ pub struct Book {
 impl Book {
     /// Parses every formula of a document and works out the scope of every equation.
     pub fn new(document: &Document) -> Self {
+        Book::with(document, &mut Formulas::default())
+    }
+
+    /// As [`Book::new`], without parsing again what has been parsed before.
+    pub fn with(document: &Document, formulas: &mut Formulas) -> Self {
+        formulas.turn();
         let mut book = Book::default();
         let mut scopes = Scopes::default();
         let mut section = String::new();
@@ -142,7 +174,7 @@ impl Book {
                 }
                 Item::Equation(equation) => {
                     let index = book.entries.len();
-                    book.add(equation, &scopes.current(), &section, previous);
+                    book.add(equation, &scopes.current(), &section, previous, formulas);
                     if !equation.inline {
                         previous = Some(index);
                     }
@@ -153,14 +185,21 @@ impl Book {
         book
     }
 
-    fn add(&mut self, equation: &Equation, scope: &Arc<Scope>, section: &str, previous: Option<usize>) {
+    fn add(
+        &mut self,
+        equation: &Equation,
+        scope: &Arc<Scope>,
+        section: &str,
+        previous: Option<usize>,
+        formulas: &mut Formulas,
+    ) {
         let annotation = equation.annotation.as_ref();
         let scope = match annotation {
             Some(a) if !a.symbols.is_empty() => Arc::new(scope.with_local(&a.symbols, &mut self.problems)),
             _ => Arc::clone(scope),
         };
-        let formula = |text: &Option<Spanned<String>>| text.as_ref().map(|t| Formula::new(&t.value));
-        let printed = Formula::new(&format!("{}{}", equation.prefix, equation.masked));
+        let printed = formulas.read_with(&format!("{}{}", equation.prefix, equation.masked), &equation.macros);
+        let mut formula = |text: &Option<Spanned<String>>| text.as_ref().map(|t| formulas.read(&t.value));
         let reading = annotation.and_then(|a| formula(&a.reading));
         let correction = annotation.and_then(|a| formula(&a.correction));
         let mut mentions = HashSet::new();
@@ -172,6 +211,9 @@ impl Book {
         let mentions: HashMap<String, usize> =
             mentions.into_iter().filter_map(|m| scope.get(&m).map(|e| e.declared).map(|d| (m, d))).collect();
         self.labels.entry(equation.label.clone()).or_insert(self.entries.len());
+        for number in &equation.numbers {
+            self.numbers.entry(number.clone()).or_insert(self.entries.len());
+        }
         for pattern in mentions.keys() {
             self.mentioned.entry(pattern.clone()).or_default().push(self.entries.len());
         }
@@ -189,11 +231,26 @@ impl Book {
 
     /// The equation that a reference means, with the statement of it, counted from 1, where one is named: `75.2`.
     pub fn find(&self, reference: &str) -> Option<(usize, Option<usize>)> {
-        if let Some(index) = self.labels.get(reference) {
+        trace::reference(reference);
+        if let Some(index) = self.labels.get(reference).or_else(|| self.numbers.get(reference)) {
             return Some((*index, None));
         }
         let (label, part) = reference.rsplit_once('.')?;
         Some((*self.labels.get(label)?, Some(part.parse().ok()?)))
+    }
+
+    /// The equation of a label.
+    pub(super) fn labelled(&self, label: &str) -> Option<usize> {
+        self.labels.get(label).copied()
+    }
+
+    /// The equations up to so many places before and behind one, the nearest first.
+    pub fn around(&self, index: usize, reach: usize) -> Vec<usize> {
+        trace::around(index, reach);
+        let mut around: Vec<usize> =
+            (index.saturating_sub(reach)..=index + reach).filter(|k| *k != index && *k < self.entries.len()).collect();
+        around.sort_by_key(|k| k.abs_diff(index));
+        around
     }
 
     /// References to equations and links that do not exist, and `given`s that go in a circle.
@@ -249,7 +306,8 @@ impl Book {
 
     /// The circle of `given`s through an equation, by labels, if there is one: `1 → 2 → 1`.
     pub fn circle(&self, index: usize) -> Option<String> {
-        Some(self.circles.get(&index)?.text(|k| self.entries[k].equation.label.clone()))
+        trace::circle(index);
+        Some(self.circles.get(&index)?.text(|k| self.entries.quietly(k).equation.label.clone()))
     }
 
     /// An equation taken apart. One that begins with a relation continues the equation before, as corrected.
@@ -265,9 +323,9 @@ impl Book {
         // The formulas that are continued, the last first.
         let mut chain = vec![(index, tree)];
         let mut at = index;
-        while let (Some(previous), true) =
-            (self.entries[at].previous, semantics::begins_with_relation(chain[chain.len() - 1].1))
-        {
+        while semantics::begins_with_relation(chain[chain.len() - 1].1) {
+            trace::continued(at);
+            let Some(previous) = self.entries[at].previous else { break };
             at = previous;
             if chain.len() > LONGEST_CHAIN {
                 return Err(before(at, &format!("more than {LONGEST_CHAIN} equations continue each other")));
@@ -293,14 +351,22 @@ impl Book {
     /// Whether a symbol is mentioned by an equation before this one that does not rest on this one, or by one that this
     /// one rests on.
     pub fn mentioned_before(&self, index: usize, pattern: &str) -> bool {
-        let declared = self.entries[index].scope.get(pattern).map(|e| e.declared);
-        let given = |e: &Entry| -> Vec<usize> {
-            e.given(None).iter().filter_map(|g| self.find(&g.value)).map(|(k, _)| k).collect()
-        };
-        let rests = |e: &Entry| given(e).contains(&index);
-        let mut earlier = self.mentioned.get(pattern).into_iter().flatten().take_while(|k| **k < index);
-        earlier.any(|k| self.entries[*k].mentions.get(pattern).copied() == declared && !rests(&self.entries[*k]))
-            || given(&self.entries[index]).iter().any(|k| self.entries[*k].mentions.contains_key(pattern))
+        trace::mentioned(index, pattern);
+        let entry = |k: usize| self.entries.quietly(k);
+        let declared = |k: usize| entry(k).mentions.get(pattern).copied();
+        unrecorded(|| {
+            let own = entry(index).scope.get(pattern).map(|e| e.declared);
+            let rests = |k: usize| self.given_to(k).contains(&index);
+            let mut earlier = self.mentioned.get(pattern).into_iter().flatten().take_while(|k| **k < index);
+            earlier.any(|k| declared(*k) == own && !rests(*k))
+                || self.given_to(index).iter().any(|k| entry(*k).mentions.contains_key(pattern))
+        })
+    }
+
+    /// The equations that one rests on.
+    fn given_to(&self, index: usize) -> Vec<usize> {
+        let given = self.entries.quietly(index).given(None);
+        given.iter().filter_map(|g| self.find(&g.value)).map(|(k, _)| k).collect()
     }
 }
 

@@ -15,6 +15,7 @@ fn locate(entry: &Entry, version: Version, part: &Span) -> Span {
         return text.place(part.clone());
     }
     let equation = &entry.equation;
+    let part = &entry.printed.expanded.place(part);
     // What stands before the block of a row is printed elsewhere.
     match part.start.checked_sub(equation.prefix.len()) {
         Some(start) => {

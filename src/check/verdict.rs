@@ -404,9 +404,15 @@ pub struct Judgement {
     pub numbered: bool,
     /// The heading it stands under.
     pub section: String,
+    /// The numbers that LaTeX prints beside it, where the notes call it by a name.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub numbers: Vec<String>,
+    /// The file that it stands in, where that is another than the document's (`\input`).
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub file: Option<String>,
     /// The line of the file at which it begins.
     pub line: usize,
-    /// The LaTeX as printed, without its label.
+    /// The LaTeX as printed, without its label, macros expanded.
     pub latex: String,
     /// `identity`, `definition`, `derived`, `constant`, `approximation`, `inequality`, `solution`, `statement` ...
     pub kind: String,
@@ -521,4 +527,11 @@ pub struct DocumentReport {
     pub assumed: Vec<Assumed>,
     /// The judgements in order.
     pub equations: Vec<Judgement>,
+}
+
+impl DocumentReport {
+    /// The path of the file that an equation of it stands in.
+    pub fn path_of<'a>(&'a self, judgement: &'a Judgement) -> &'a str {
+        judgement.file.as_deref().unwrap_or(&self.path)
+    }
 }

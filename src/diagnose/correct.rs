@@ -22,9 +22,9 @@ use super::lexicon::Lexicon;
 use super::likeness;
 use super::mutants::{LONGEST, replaced_at};
 use super::near::Near;
-use super::singles::Singles;
 use super::shape::{is_null, times};
 use super::sides::Row;
+use super::singles::Singles;
 use super::tries;
 
 /// How many suggestions are made.
@@ -57,7 +57,7 @@ pub fn meant(book: &Book, index: usize, tree: &Node, links: &[LinkJudgement], op
         return Vec::new();
     }
     let mut printed = book.clone();
-    printed.entries[index].reading = Some(crate::check::Formula { latex, tree: Ok(tree.clone()) });
+    printed.entries[index].reading = Some(crate::check::Formula::made(latex, tree.clone()).into());
     printed.entries[index].correction = None;
     let Some(trial) = Trial::new(&printed, index, Version::Printed, links, options) else { return Vec::new() };
     let near = Near::new(&printed, index, tree);

@@ -125,4 +125,3 @@ fn repeats(kind: EditKind) -> bool {
         EditKind::Symbol | EditKind::Index | EditKind::Prime | EditKind::Dot | EditKind::Replace | EditKind::DropFactor
     )
 }
-

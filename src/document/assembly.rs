@@ -3,28 +3,40 @@
 use super::annotation::{self, About, EquationAnnotation};
 use super::declaration;
 use super::display::{BlockRows, Display};
+use super::files::Files;
 use super::layout::trimmed;
-use super::place::{Lines, Span, Spanned};
+use super::place::{Span, Spanned};
 use super::problem::Problem;
 use super::scan::{Found, directive};
+use super::tex::number::{Counted, Counter};
 use super::toml::{self, Reader};
-use super::{Equation, Item, Section};
+use super::{Equation, InlineFormula, Item, Section};
+use crate::latex::expand::{Definitions, Macros};
 use std::collections::HashMap;
+use std::sync::Arc;
 
 /// A part of the text that matters.
 pub(super) enum Part {
     Heading(Section),
-    /// An inline formula with its dollars.
-    Formula(Span),
+    /// An inline formula with its delimiters, and what stands between them.
+    Formula(Span, Span),
     Found(Found),
+    /// An annotation in comment lines: its place, and its TOML, which begins there.
+    Annotation(Span, String),
+    /// From here on so many definitions are in force.
+    Defined(usize, usize),
+    /// Something that LaTeX counts.
+    Counted(usize, Counted),
 }
 
 impl Part {
-    pub(super) fn span(&self) -> &Span {
+    /// Where it begins.
+    pub(super) fn start(&self) -> usize {
         match self {
-            Part::Heading(section) => &section.span,
-            Part::Formula(span) => span,
-            Part::Found(found) => found.span(),
+            Part::Heading(section) => section.span.start,
+            Part::Formula(span, _) | Part::Annotation(span, _) => span.start,
+            Part::Found(found) => found.span().start,
+            Part::Defined(start, _) | Part::Counted(start, _) => *start,
         }
     }
 }
@@ -59,11 +71,13 @@ impl LastDisplay {
 /// The document as far as it has been put together.
 pub(super) struct Assembly<'a> {
     source: &'a str,
-    pub(super) lines: Lines,
+    /// The source in which what is no part of the notes (comments, definitions) is blank.
+    clean: &'a str,
+    pub(super) files: Files,
     pub(super) items: Vec<Item>,
     pub(super) problems: Vec<Problem>,
     /// The inline formulas, without their delimiters.
-    pub(super) formulas: Vec<Span>,
+    pub(super) formulas: Vec<InlineFormula>,
     /// All labels with the places where they are printed or given.
     labels: HashMap<String, Span>,
     /// The last label printed.
@@ -72,15 +86,27 @@ pub(super) struct Assembly<'a> {
     unnumbered: usize,
     displays: usize,
     target: Target,
-    /// The last inline formula, with its dollars.
-    formula: Option<Span>,
+    /// The last inline formula, with its delimiters, and what stands between them.
+    formula: Option<(Span, Span)>,
+    definitions: Arc<Definitions>,
+    macros: Macros,
+    /// What counts equations as LaTeX does.
+    counter: Option<Counter>,
 }
 
 impl<'a> Assembly<'a> {
-    pub(super) fn new(source: &'a str, problems: Vec<Problem>) -> Self {
+    pub(super) fn new(
+        source: &'a str,
+        clean: &'a str,
+        files: Files,
+        definitions: Definitions,
+        problems: Vec<Problem>,
+    ) -> Self {
+        let definitions = Arc::new(definitions);
         Assembly {
             source,
-            lines: Lines::new(source),
+            clean,
+            files,
             items: Vec::new(),
             problems,
             formulas: Vec::new(),
@@ -90,7 +116,15 @@ impl<'a> Assembly<'a> {
             displays: 0,
             target: Target::Nothing,
             formula: None,
+            macros: Macros::until(&definitions, 0),
+            definitions,
+            counter: None,
         }
+    }
+
+    /// Counts equations as LaTeX does.
+    pub(super) fn counting(self, counter: Counter) -> Self {
+        Assembly { counter: Some(counter), ..self }
     }
 
     /// Adds the next part of the text.
@@ -100,9 +134,16 @@ impl<'a> Assembly<'a> {
                 self.target = Target::Nothing;
                 self.items.push(Item::Section(section));
             }
-            Part::Formula(span) => {
-                self.formulas.push(trimmed(self.source, span.start + 1..span.end - 1));
-                self.formula = Some(span);
+            Part::Formula(span, content) => {
+                self.formulas.push(InlineFormula { span: content.clone(), macros: self.macros.clone() });
+                self.formula = Some((span, content));
+            }
+            Part::Annotation(span, text) => self.annotation(span.clone(), &text, span.start),
+            Part::Defined(_, count) => self.macros = Macros::until(&self.definitions, count),
+            Part::Counted(_, counted) => {
+                if let Some(counter) = &mut self.counter {
+                    counter.count(counted);
+                }
             }
             Part::Found(Found::Display { span, content, environment }) => {
                 self.display(span.start, content, environment)
@@ -116,16 +157,23 @@ impl<'a> Assembly<'a> {
     }
 
     fn display(&mut self, start: usize, content: Span, environment: Option<String>) {
-        let line = self.lines.start(start);
+        let line = self.files.line_start(start);
         let last = LastDisplay { content, line, environment, previous: self.previous.clone() };
-        let display = last.take_apart(self.source);
+        let display = last.take_apart(self.clean);
+        let counted = self.counter.as_mut().map(|counter| display.numbers(last.environment.as_deref(), counter));
         let first = self.items.len();
-        for part in display.parts(&mut self.problems) {
+        for mut part in display.parts(&mut self.problems) {
+            part.names
+                .extend(counted.iter().flatten().filter(|(at, _)| part.rows.contains(at)).map(|(_, n)| n.clone()));
+            if part.label.is_none() {
+                let free = part.names.iter().find(|name| !self.labels.contains_key(*name));
+                part.label = free.map(|name| (name.clone(), part.span.clone()));
+            }
             let numbered = part.label.is_some();
             let label = self.printed_label(part.label);
             let masked = display.masked(part.span.clone());
             let equation = self.equation(label, part.span, masked);
-            self.items.push(Item::Equation(Equation { numbered, ..equation }));
+            self.items.push(Item::Equation(Equation { numbered, numbers: part.names, ..equation }));
         }
         self.displays += 1;
         self.target = Target::Equations { first, count: self.items.len() - first, display: Some(last) };
@@ -135,13 +183,16 @@ impl<'a> Assembly<'a> {
         Equation {
             label,
             numbered: false,
-            line: self.lines.line(span.start),
+            numbers: Vec::new(),
+            file: self.files.at(span.start).filter(|file| file.span.start > 0).map(|file| file.path.clone()),
+            line: self.files.line(span.start),
             latex: self.source.get(span.clone()).unwrap_or_default().to_owned(),
             masked,
             span,
             prefix: String::new(),
             display: self.displays,
             inline: false,
+            macros: self.macros.clone(),
             annotation: None,
         }
     }
@@ -182,9 +233,15 @@ impl<'a> Assembly<'a> {
     }
 
     fn comment(&mut self, span: Span, content: Span) {
-        let Some(text) = self.source.get(content.clone()).and_then(directive) else { return };
-        let range = content.end - text.len()..content.end;
-        let Some(table) = toml::parse(self.source, range, &mut self.problems) else { return };
+        let source = self.source;
+        let Some(text) = source.get(content.clone()).and_then(directive) else { return };
+        self.annotation(span, text, content.end - text.len());
+    }
+
+    /// Reads the TOML of an annotation, which begins at a byte of the source.
+    fn annotation(&mut self, span: Span, text: &str, offset: usize) {
+        let source = toml::Source { text, offset, macros: &self.macros };
+        let Some(table) = toml::parse(source, &mut self.problems) else { return };
         let problems_before = self.problems.len();
         let mut reader = Reader { problems: &mut self.problems };
         match annotation::about(&table, &mut reader) {
@@ -207,10 +264,10 @@ impl<'a> Assembly<'a> {
     /// Gives an annotation to the equation that it belongs to.
     fn annotate(&mut self, annotation: EquationAnnotation) {
         if let Some(label) = &annotation.label
-            && let Some(formula) =
-                self.formula.take_if(|formula| is_right_before(self.source, formula, &annotation.span))
+            && let Some((_, formula)) =
+                self.formula.take_if(|(formula, _)| is_right_before(self.source, formula, &annotation.span))
         {
-            self.inline(&formula, label);
+            self.inline(formula, label);
         } else if matches!(self.target, Target::Damaged) {
             return;
         }
@@ -245,10 +302,10 @@ impl<'a> Assembly<'a> {
     }
 
     /// An inline formula becomes an equation, by an annotation that labels it.
-    fn inline(&mut self, formula: &Span, label: &Spanned<String>) {
+    fn inline(&mut self, formula: Span, label: &Spanned<String>) {
         let name = if self.claim(&label.value, &label.span) { label.value.clone() } else { self.made_up_label() };
-        let span = trimmed(self.source, formula.start + 1..formula.end - 1);
-        let masked = self.source.get(span.clone()).unwrap_or_default().to_owned();
+        let span = trimmed(self.source, formula);
+        let masked = self.clean.get(span.clone()).unwrap_or_default().to_owned();
         let equation = self.equation(name, span, masked);
         let first = self.items.len();
         self.items.push(Item::Equation(Equation { inline: true, ..equation }));
@@ -349,7 +406,7 @@ impl<'a> Assembly<'a> {
         if whole.annotation.is_some() {
             return because("`rows` comes too late", "put it into the first annotation of the display");
         }
-        let display = last.take_apart(self.source);
+        let display = last.take_apart(self.clean);
         let Some(block) = display.block_rows().filter(|_| *count == 1) else {
             return because(
                 "the display has no block whose rows could be labelled",

@@ -8,6 +8,7 @@ use super::label::{self, Printed, Region};
 use super::layout::{Block, Layout, first_ampersand, has_statements, trimmed};
 use super::place::{Span, Spanned};
 use super::problem::Problem;
+use super::tex::number::{self, Counter, has_numbered_rows};
 
 /// A display that has been taken apart. Places in it are bytes of the file.
 pub(super) struct Display<'a> {
@@ -28,6 +29,10 @@ pub(super) struct Part {
     pub(super) span: Span,
     /// Its printed label and the label's place in the file.
     pub(super) label: Option<(String, Span)>,
+    /// Other names of it: what `\label` calls it beside a `\tag`.
+    pub(super) names: Vec<String>,
+    /// The bytes of the display's content that belong to it.
+    pub(super) rows: Span,
 }
 
 /// A block whose rows are to be equations of their own.
@@ -131,7 +136,30 @@ impl<'a> Display<'a> {
             );
         }
         let label = self.printed.first().map(|printed| self.label_of(printed));
-        vec![Part { span: self.place(0..self.content.len()), label }]
+        vec![self.part(0..self.content.len(), label)]
+    }
+
+    fn part(&self, rows: Span, label: Option<(String, Span)>) -> Part {
+        let inside = self.layout.labels.iter().filter(|(span, _)| rows.contains(&span.start));
+        let other = |name: &&String| label.as_ref().is_none_or(|(label, _)| *label != **name);
+        let names = inside.map(|(_, name)| name).filter(other).cloned().collect();
+        Part { span: self.place(rows.clone()), label, names, rows }
+    }
+
+    /// The numbers that LaTeX prints beside its rows, with the bytes of the content where the rows begin.
+    pub(super) fn numbers(&self, environment: Option<&str>, counter: &mut Counter) -> Vec<(usize, String)> {
+        let Some(environment) = environment.filter(|name| number::is_numbered(name)) else { return Vec::new() };
+        let rows = match self.regions.as_slice() {
+            [region] if has_numbered_rows(environment) => region.rows.clone(),
+            _ => vec![0..self.content.len()],
+        };
+        let own = |row: &Span| {
+            let silent = self.layout.silent.iter().any(|span| {
+                row.contains(&span.start) && self.text().get(span.clone()).is_some_and(|text| text.starts_with(r"\no"))
+            });
+            !silent && !self.layout.tags.iter().any(|(span, _)| row.contains(&span.start))
+        };
+        rows.into_iter().filter(own).map(|row| (row.start, counter.next())).collect()
     }
 
     /// One equation for each label, if all of them label different rows of one region.
@@ -156,7 +184,7 @@ impl<'a> Display<'a> {
             start = region.rows.get(next_row).map_or(region.span.end, |row| row.start);
         }
         parts.last_mut()?.0.end = region.span.end;
-        Some(parts.into_iter().map(|(span, label)| Part { span: self.place(span), label: Some(label) }).collect())
+        Some(parts.into_iter().map(|(span, label)| self.part(span, Some(label))).collect())
     }
 
     /// The rows of its outermost block: of `cases` and the like the first cells, of `aligned` and the like the rows.

@@ -3,6 +3,7 @@
 //! A label looks like `1`, `52`, `12a`, `3.14`, `A.1`. It is found
 //!
 //! - in `\tag{..}` and `\tag*{..}`, where it may be anything;
+//! - in `\label{..}`, the name by which the source calls what LaTeX numbers, if no `\tag` stands in the same row;
 //! - in parentheses at the very end of a display, or of a row of an `aligned` or the like, if it stands apart: after
 //!   `\quad`, `\qquad`, `~`, `\hfill`, `\hspace{..}`, after `&`, directly after the `\end{..}` of an environment with
 //!   rows, or with nothing at all before it;
@@ -11,7 +12,7 @@
 //!   sequence: it is the label before plus one (`12` after `11`, `3.5` after `3.4`, `12b` after `12a`; `1` if there is
 //!   none before).
 //!
-//! Labels of the first two kinds do not have to continue the sequence. A row label is only looked for in environments
+//! Labels of the first three kinds do not have to continue the sequence. A row label is only looked for in environments
 //! whose rows are statements; in a matrix, an `array` or `cases` a `& (2)` is an entry.
 
 use super::layout::{Layout, has_statements};
@@ -57,6 +58,12 @@ pub fn find(content: &str, layout: &Layout, regions: &[Region], previous: Option
         if !label.is_empty() {
             let span = space_before(content, span.start).0..span.end;
             certain.push(Printed { label: label.clone(), row: row_at(regions, span.end - 1), span });
+        }
+    }
+    for (span, label) in &layout.labels {
+        let row = row_at(regions, span.start);
+        if !label.is_empty() && !certain.iter().any(|printed| printed.row == row) {
+            certain.push(Printed { label: label.clone(), span: span.clone(), row });
         }
     }
     let rows = regions.iter().enumerate().flat_map(|(region, found)| {

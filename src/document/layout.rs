@@ -30,6 +30,8 @@ pub struct Layout {
     pub breaks: Vec<Span>,
     /// The `\tag{..}`, at any depth, with their labels.
     pub tags: Vec<(Span, String)>,
+    /// The `\label{..}`, at any depth, with their names.
+    pub labels: Vec<(Span, String)>,
     /// What prints nothing: `\label{..}`, `\nonumber`, `\notag`.
     pub silent: Vec<Span>,
 }
@@ -88,6 +90,10 @@ impl Layout {
                     }
                 }
                 Token::Tag(label) => layout.tags.push((span, label.trim().to_owned())),
+                Token::Label(name) => {
+                    layout.labels.push((span.clone(), name.trim().to_owned()));
+                    layout.silent.push(span);
+                }
                 Token::Silent => layout.silent.push(span),
             }
         }
@@ -150,6 +156,7 @@ enum Token<'a> {
     Begin(&'a str),
     End(&'a str),
     Tag(&'a str),
+    Label(&'a str),
     Silent,
 }
 
@@ -200,7 +207,7 @@ impl<'a> Tokens<'a> {
                 self.at += usize::from(self.rest().starts_with('*'));
                 self.argument(60).map(Token::Tag)
             }
-            "label" => self.argument(200).map(|_| Token::Silent),
+            "label" => self.argument(200).map(Token::Label),
             "nonumber" | "notag" => Some(Token::Silent),
             _ => None,
         }

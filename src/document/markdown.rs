@@ -8,10 +8,12 @@
 //! label is printed a second time, that is a problem, and the second equation is called as if it had none.
 
 use super::assembly::{Assembly, Part};
+use super::files::Files;
 use super::layout::trimmed;
 use super::place::Span;
 use super::scan::{Found, scan};
 use super::{Document, Item, Section};
+use crate::latex::expand::Definitions;
 use pulldown_cmark::{Event, Options, Parser, Tag, TagEnd};
 use std::path::Path;
 use std::sync::Arc;
@@ -21,8 +23,8 @@ pub fn parse(path: &Path, source: &str) -> Document {
     let (found, problems) = scan(source, &code(source));
     let mut parts = structure(source, &found);
     parts.extend(found.into_iter().map(Part::Found));
-    parts.sort_by_key(|part| part.span().start);
-    let mut assembly = Assembly::new(source, problems);
+    parts.sort_by_key(Part::start);
+    let mut assembly = Assembly::new(source, source, Files::single(path, source), Definitions::default(), problems);
     for part in parts {
         assembly.add(part);
     }
@@ -40,7 +42,7 @@ pub fn parse(path: &Path, source: &str) -> Document {
         items: assembly.items,
         problems: assembly.problems,
         formulas: assembly.formulas,
-        lines: assembly.lines,
+        files: assembly.files,
     }
 }
 
@@ -72,7 +74,7 @@ fn structure(source: &str, found: &[Found]) -> Vec<Part> {
             Event::End(TagEnd::Heading(_)) => parts.extend(heading.take().and_then(|section| finished(section, found))),
             Event::InlineMath(formula) => {
                 title(&format!("${formula}$"));
-                parts.push(Part::Formula(span));
+                parts.push(Part::Formula(span.clone(), span.start + 1..span.end - 1));
             }
             Event::Text(text) | Event::Code(text) => title(&text),
             Event::SoftBreak | Event::HardBreak => title(" "),

@@ -1,10 +1,11 @@
-//! Reading notes: a file becomes its sections, its equations with label, LaTeX and place, and its annotations.
+//! Reading notes: files become their sections, their equations with label, LaTeX and place, and their annotations.
 //!
 //! What is an equation, how it gets its label, and which annotation belongs to it is explained in [`markdown`],
-//! [`label`] and [`annotation`]. Promises:
+//! [`tex`], [`label`] and [`annotation`]. Notes may be written in several files (`\input`); a place in them is a byte of
+//! all of them together, see [`files`]. Promises:
 //!
-//! - an equation's [`latex`](Equation::latex) is the file's bytes at its [`span`](Equation::span), unchanged;
-//! - [`masked`](Equation::masked) has the same length in bytes, so that a place found in it is a place in the file;
+//! - an equation's [`latex`](Equation::latex) is the notes' bytes at its [`span`](Equation::span), unchanged;
+//! - [`masked`](Equation::masked) has the same length in bytes, so that a place found in it is a place in the notes;
 //! - labels are unique within a document;
 //! - whatever is wrong becomes a [`Problem`] with its place, and all other equations are still delivered. Only a file
 //!   that is not there, is not UTF-8, or holds no equation is a [`ReadError`].
@@ -13,6 +14,7 @@ pub mod annotation;
 mod assembly;
 pub mod declaration;
 mod display;
+pub mod files;
 pub mod label;
 pub mod layout;
 pub mod markdown;
@@ -20,6 +22,7 @@ pub mod place;
 pub mod problem;
 mod read;
 mod scan;
+pub mod tex;
 mod toml;
 
 #[cfg(test)]
@@ -27,11 +30,13 @@ mod tests;
 
 pub use annotation::{EquationAnnotation, LinkPremises};
 pub use declaration::{Arguments, BasisDeclaration, Declarations, SymbolDeclaration};
+pub use files::{Beside, Files, Nowhere, OnDisk, SourceFile};
 pub use place::{Lines, Span, Spanned};
 pub use problem::{Problem, Severity};
-pub use read::{ReadError, parse, read};
+pub use read::{ReadError, edited, parse, parse_beside, read};
 
-use std::path::PathBuf;
+use crate::latex::expand::Macros;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// Notes that have been read.
@@ -43,16 +48,25 @@ pub struct Document {
     pub path: PathBuf,
     /// The first heading of the first level, or else [`name`](Self::name).
     pub title: String,
-    /// The whole file.
+    /// All its files, one behind the other.
     pub source: Arc<str>,
-    /// What it holds, in the order of the file.
+    /// What it holds, in the order in which it is read.
     pub items: Vec<Item>,
-    /// What is wrong with it, in the order of the file.
+    /// What is wrong with it, file by file, in the order of the file.
     pub problems: Vec<Problem>,
-    /// The inline formulas, without their delimiters, in the order of the file.
-    pub formulas: Vec<Span>,
-    /// Where its lines begin.
-    pub lines: Lines,
+    /// The inline formulas, without their delimiters, in the order in which they are read.
+    pub formulas: Vec<InlineFormula>,
+    /// Its files: that at [`path`](Self::path) first, then those it includes, then its sidecar.
+    pub files: Files,
+}
+
+/// An inline formula.
+#[derive(Clone, Debug, PartialEq)]
+pub struct InlineFormula {
+    /// The bytes of its LaTeX, without delimiters.
+    pub span: Span,
+    /// The macros in force where it stands.
+    pub macros: Macros,
 }
 
 /// A part of a document.
@@ -86,11 +100,15 @@ pub struct Equation {
     pub label: String,
     /// Whether the label is printed in the notes.
     pub numbered: bool,
-    /// The line where its LaTeX begins, counted from 1.
+    /// The numbers that LaTeX prints beside it: its `label` is what the source calls it, its number what a reader sees.
+    pub numbers: Vec<String>,
+    /// The file it stands in, where that is another than the document's.
+    pub file: Option<PathBuf>,
+    /// The line of its file where its LaTeX begins, counted from 1.
     pub line: usize,
-    /// The bytes of its LaTeX in the file.
+    /// The bytes of its LaTeX in the notes.
     pub span: Span,
-    /// Its LaTeX: the file's bytes at `span`, without the delimiters of the display.
+    /// Its LaTeX: the notes' bytes at `span`, without the delimiters of the display.
     pub latex: String,
     /// `latex` with the same length in bytes, in which everything that is not mathematics is blank: the printed label
     /// and the space before it, `\label{..}`, `\nonumber`, `\notag`, and the marks `>` of a block quote.
@@ -102,8 +120,17 @@ pub struct Equation {
     pub display: usize,
     /// Whether it is an inline formula.
     pub inline: bool,
+    /// The macros in force where it stands, with which it is to be expanded.
+    pub macros: Macros,
     /// Its annotation.
     pub annotation: Option<EquationAnnotation>,
+}
+
+impl Equation {
+    /// Whether this is its label or its number.
+    pub fn is_called(&self, name: &str) -> bool {
+        self.label == name || self.numbers.iter().any(|number| number == name)
+    }
 }
 
 impl Document {
@@ -115,8 +142,13 @@ impl Document {
         })
     }
 
-    /// The line and the column, in characters, of a byte of the file, both counted from 1.
+    /// The line and the column, in characters, of a byte of the notes in the file that holds it, both counted from 1.
     pub fn line_column(&self, offset: usize) -> (usize, usize) {
-        self.lines.line_column(&self.source, offset)
+        self.files.line_column(&self.source, offset)
+    }
+
+    /// The file that holds a byte of the notes.
+    pub fn file(&self, offset: usize) -> &Path {
+        self.files.at(offset).map_or(&self.path, |file| &file.path)
     }
 }

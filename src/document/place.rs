@@ -27,8 +27,8 @@ impl Spanned<String> {
         &self.value
     }
 
-    /// Whether the bytes at `span` are the text itself. They are not where the text was written with escapes (`"\\theta"`):
-    /// then the span is that of the whole quoted value, which is always longer than the text.
+    /// Whether the bytes at `span` are the text itself. They are not where the text was written with escapes (`"\\theta"`),
+    /// or with macros: then the span is that of the whole value, which has another length than the text.
     pub fn is_verbatim(&self) -> bool {
         self.value.len() == self.span.len()
     }

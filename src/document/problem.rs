@@ -81,11 +81,18 @@ impl Problem {
             diagnostic.message = harmless(&format!("{} ({})", self.message, self.location(document)));
             return Report::new(diagnostic);
         }
-        let mut labels = vec![LabeledSpan::new_primary_with_span(self.label.clone(), self.span.clone())];
-        labels.extend(
-            self.other.iter().map(|(span, label)| LabeledSpan::new_with_span(Some(label.clone()), span.clone())),
-        );
-        let source = NamedSource::new(harmless(&document.path.to_string_lossy()), harmless(&document.source));
+        let file = document.files.at(self.span.start).map_or(0..document.source.len(), |file| file.span.clone());
+        let local = |span: &Span| span.start - file.start..span.end.min(file.end).max(span.start) - file.start;
+        let mut labels = vec![LabeledSpan::new_primary_with_span(self.label.clone(), local(&self.span))];
+        // A place in another file cannot be shown beside this one: it is told in words.
+        let (here, elsewhere): (Vec<_>, Vec<_>) =
+            self.other.iter().partition(|(span, _)| file.start <= span.start && span.start <= file.end);
+        labels.extend(here.iter().map(|(span, label)| LabeledSpan::new_with_span(Some(label.clone()), local(span))));
+        for (span, label) in elsewhere {
+            diagnostic.message += &harmless(&format!("; {label}: {}", place(document, span)));
+        }
+        let text = document.source.get(file.clone()).unwrap_or_default();
+        let source = NamedSource::new(harmless(&document.file(file.start).to_string_lossy()), harmless(text));
         Report::new(diagnostic.with_labels(labels)).with_source_code(source)
     }
 
@@ -97,7 +104,9 @@ impl Problem {
         }
         if let Some((span, label)) = &self.other {
             let (line, column) = document.line_column(span.start);
-            text += &format!("; {label} (line {line}, column {column})");
+            let same = document.files.number(span.start) == document.files.number(self.span.start);
+            let file = if same { String::new() } else { format!("{}, ", document.file(span.start).display()) };
+            text += &format!("; {label} ({file}line {line}, column {column})");
         }
         if let Some(help) = &self.help {
             text += &format!(". {help}");
@@ -106,9 +115,14 @@ impl Problem {
     }
 
     fn location(&self, document: &Document) -> String {
-        let (line, column) = document.line_column(self.span.start);
-        format!("{}:{line}:{column}", document.path.display())
+        place(document, &self.span)
     }
+}
+
+/// Where a place begins, with its file: `notes.md:12:5`.
+fn place(document: &Document, span: &Span) -> String {
+    let (line, column) = document.line_column(span.start);
+    format!("{}:{line}:{column}", document.file(span.start).display())
 }
 
 /// A text in which nothing steers the terminal: control characters become signs of the same length in bytes.

@@ -1,13 +1,13 @@
 //! Opening a file of notes.
 
-use super::{Document, markdown};
+use super::{Beside, Document, Nowhere, OnDisk, markdown, tex};
 use miette::Diagnostic;
 use std::io::Read;
 use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 /// The largest file that is read, in bytes.
-const LARGEST: u64 = 64 << 20;
+pub(super) const LARGEST: u64 = 64 << 20;
 
 /// Why a file could not be read as notes.
 #[derive(Debug, Error, Diagnostic)]
@@ -101,7 +101,7 @@ pub fn read(path: &Path) -> Result<Document, ReadError> {
     if source.trim_matches(|c: char| c.is_whitespace() || c == '\u{feff}').is_empty() {
         return Err(ReadError::Empty { path: path.to_owned() });
     }
-    let document = parse(path, &source);
+    let document = edited(path, &source);
     if document.equations().next().is_none() && document.problems.is_empty() {
         return Err(ReadError::NoEquation { path: path.to_owned() });
     }
@@ -119,7 +119,21 @@ fn not_read(path: &Path, error: std::io::Error) -> ReadError {
     }
 }
 
-/// Reads notes from a text; `path` is only for messages and the document's name.
+/// Reads notes from a text alone; `path` is only for messages and the document's name, and says what they are written in.
 pub fn parse(path: &Path, source: &str) -> Document {
-    markdown::parse(path, source)
+    parse_beside(path, source, &Nowhere)
+}
+
+/// Reads notes from a text, as an editor holds it; files that it includes are read from the disk.
+pub fn edited(path: &Path, source: &str) -> Document {
+    parse_beside(path, source, &OnDisk)
+}
+
+/// Reads notes from a text, with the files that it includes.
+pub fn parse_beside(path: &Path, source: &str, beside: &dyn Beside) -> Document {
+    let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());
+    match extension.as_deref() {
+        Some("tex" | "ltx" | "latex") => tex::parse(path, source, beside),
+        _ => markdown::parse(path, source),
+    }
 }

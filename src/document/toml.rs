@@ -2,6 +2,7 @@
 
 use super::place::{Span, Spanned};
 use super::problem::{Problem, nearest};
+use crate::latex::expand::Macros;
 use ::toml::de::{DeTable, DeValue};
 
 /// A TOML value with its place in the file.
@@ -26,15 +27,25 @@ pub(super) enum Kind {
 /// The entries of a table in the order of the file.
 pub(super) type Table = Vec<(Spanned<String>, Value)>;
 
-/// Reads the TOML at a range of the file. A text that holds a control character is a problem, too: `"\theta"` in double
+/// TOML as it stands in a file.
+#[derive(Clone, Copy)]
+pub(super) struct Source<'a> {
+    /// The TOML: the bytes of the file, in which what is none (the `%!` before each line) is blank.
+    pub(super) text: &'a str,
+    /// Where it begins in the file.
+    pub(super) offset: usize,
+    /// The macros with which its LaTeX is written.
+    pub(super) macros: &'a Macros,
+}
+
+/// Reads the TOML of an annotation. A text that holds a control character is a problem, too: `"\theta"` in double
 /// quotes is a tab and `heta`.
-pub(super) fn parse(source: &str, range: Span, problems: &mut Vec<Problem>) -> Option<Table> {
-    let text = source.get(range.clone()).unwrap_or_default();
-    match DeTable::parse(text) {
-        Ok(table) => Some(Placer { source, offset: range.start, problems }.table(table.into_inner())),
+pub(super) fn parse(source: Source, problems: &mut Vec<Problem>) -> Option<Table> {
+    match DeTable::parse(source.text) {
+        Ok(table) => Some(Placer { source, problems }.table(table.into_inner())),
         Err(error) => {
-            let within = error.span().unwrap_or(0..text.len());
-            let span = whole_characters(source, range.start + within.start..range.start + within.end);
+            let within = whole_characters(source.text, error.span().unwrap_or(0..source.text.len()));
+            let span = source.offset + within.start..source.offset + within.end;
             let problem = Problem::error("document::toml", "the annotation is not valid TOML", span);
             problems.push(problem.label(error.message().replace('\n', ", ")).help(IN_SINGLE_QUOTES));
             None
@@ -57,15 +68,19 @@ fn whole_characters(source: &str, span: Span) -> Span {
 
 /// Gives TOML's values their places in the file.
 struct Placer<'a> {
-    source: &'a str,
-    /// Where the TOML begins in the file.
-    offset: usize,
+    source: Source<'a>,
     problems: &'a mut Vec<Problem>,
 }
 
 impl Placer<'_> {
     fn span(&self, span: Span) -> Span {
-        self.offset + span.start..self.offset + span.end
+        self.source.offset + span.start..self.source.offset + span.end
+    }
+
+    /// What is written in the file.
+    fn written(&self, span: &Span) -> &str {
+        let local = span.start - self.source.offset..span.end - self.source.offset;
+        self.source.text.get(local).unwrap_or_default()
     }
 
     fn table(&mut self, table: DeTable) -> Table {
@@ -82,14 +97,14 @@ impl Placer<'_> {
     /// TOML itself limits how deep values nest, and so this recursion.
     fn value(&mut self, value: ::toml::Spanned<DeValue>) -> Value {
         let span = self.span(value.span());
-        let written = self.source.get(span.clone()).unwrap_or_default();
+        let written = self.written(&span).to_owned();
         let kind = match value.into_inner() {
             DeValue::String(text) => Kind::Text(self.text(text.into_owned(), span.clone())),
             DeValue::Integer(number) => {
                 let value = i64::from_str_radix(number.as_str(), number.radix()).map_or(f64::NAN, |value| value as f64);
-                Kind::Number(value, written.to_owned())
+                Kind::Number(value, written)
             }
-            DeValue::Float(number) => Kind::Number(number.as_str().parse().unwrap_or(f64::NAN), written.to_owned()),
+            DeValue::Float(number) => Kind::Number(number.as_str().parse().unwrap_or(f64::NAN), written),
             DeValue::Boolean(value) => Kind::Bool(value),
             DeValue::Datetime(_) => Kind::Date,
             DeValue::Table(table) => Kind::Table(self.table(table)),
@@ -98,9 +113,30 @@ impl Placer<'_> {
         Value { kind, span }
     }
 
-    /// A text at the place of its letters, where they stand in the file as they are, else at the place of the whole value.
+    /// A text with its macros expanded.
     fn text(&mut self, text: String, span: Span) -> Spanned<String> {
-        let written = self.source.get(span.clone()).unwrap_or_default();
+        let written = self.placed(text, span);
+        match self.source.macros.expand(&written.value) {
+            Ok(expanded) if expanded.is_verbatim() => written,
+            Ok(mut expanded) => {
+                // A text of another length than what is written has the place of the whole.
+                if expanded.text.len() == written.span.len() {
+                    expanded.text.push(' ');
+                }
+                Spanned::new(expanded.text, written.span)
+            }
+            Err(error) => {
+                let place = written.place(error.span);
+                let problem = Problem::error("document::macro", error.message, place);
+                self.problems.push(Problem { help: error.help, ..problem });
+                written
+            }
+        }
+    }
+
+    /// A text at the place of its letters, where they stand in the file as they are, else at the place of the whole value.
+    fn placed(&mut self, text: String, span: Span) -> Spanned<String> {
+        let written = self.written(&span);
         let quotes = written.bytes().take_while(|byte| matches!(byte, b'\'' | b'"')).take(3).count();
         let quotes = if text.is_empty() { written.len() / 2 } else { quotes };
         let line_break = written.get(quotes..).map_or(0, |rest| match rest {

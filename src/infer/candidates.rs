@@ -2,13 +2,10 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
-use crate::check::{Book, Version};
+use crate::check::{Book, Formula, Version};
 use crate::document::{Document, Span};
 use crate::expr::SymId;
-use crate::latex::{
-    self,
-    ast::{Kind, Node, Rel},
-};
+use crate::latex::ast::{Kind, Node, Rel};
 use crate::semantics::{self, Clause, Scope, Side, World};
 
 use super::evidence::is_name;
@@ -47,21 +44,28 @@ pub fn candidates(book: &Book, document: &Document) -> Vec<Candidate> {
         let origin = Origin::Display(index, entry.equation.label.clone());
         found.extend(candidate(origin, entry.equation.span.clone(), &entry.scope, &statement.clauses));
     }
-    for span in &document.formulas {
-        let latex = document.source.get(span.clone()).unwrap_or_default();
+    for (span, formula) in inline(document) {
         let Some(scope) = scope_at(book, span.start) else { continue };
-        let Ok(tree) = latex::parse(latex) else { continue };
-        let Ok(statement) = semantics::statement(&tree, None) else { continue };
-        found.extend(candidate(Origin::Inline(latex.to_owned()), span.clone(), scope, &statement.clauses));
+        let Ok(tree) = &formula.tree else { continue };
+        let Ok(statement) = semantics::statement(tree, None) else { continue };
+        found.extend(candidate(Origin::Inline(formula.latex), span, scope, &statement.clauses));
     }
     found.sort_by_key(|c| c.span.start);
     found
 }
 
+/// The inline formulas of a document with their places, their macros expanded.
+pub fn inline(document: &Document) -> impl Iterator<Item = (Span, Formula)> {
+    document.formulas.iter().map(|inline| {
+        let latex = document.source.get(inline.span.clone()).unwrap_or_default();
+        (inline.span.clone(), Formula::with_macros(latex, &inline.macros))
+    })
+}
+
 /// The declarations in force where an inline formula stands: those of the display before it, or of the first one.
 fn scope_at(book: &Book, at: usize) -> Option<&Scope> {
     let before = book.entries.iter().rev().find(|e| e.equation.span.start <= at);
-    before.or(book.entries.first()).map(|e| e.scope.as_ref())
+    before.or(book.entries.iter().next()).map(|e| e.scope.as_ref())
 }
 
 /// A candidate, where all that is stated are equalities that can be understood.

@@ -66,7 +66,8 @@ impl Desk<'_> {
 
     /// Lays premises beside the link, in the place of others.
     pub fn lay(&mut self, basis: &Basis) {
-        let annotation = self.book.entries[self.index].equation.annotation.get_or_insert_with(EquationAnnotation::default);
+        let annotation =
+            self.book.entries[self.index].equation.annotation.get_or_insert_with(EquationAnnotation::default);
         let text = |value: &str, at: usize| Spanned::new(value.to_owned(), at..at + value.len());
         let mut premises = LinkPremises { number: self.link + 1, ..LinkPremises::default() };
         for candidate in basis.premises.iter().map(|k| &self.all[*k]) {

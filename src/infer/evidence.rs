@@ -220,8 +220,7 @@ pub fn names(node: &Node, found: &mut dyn FnMut(String)) {
                 let whole = Kind::Scripts { base: body.clone(), primes: *primes, sub: Some(sub.clone()), sup: None };
                 found(spelling(&Node::new(whole, node.span.clone())));
             } else {
-                let whole =
-                    Kind::Scripts { base: base.clone(), primes: *primes, sub: Some(sub.clone()), sup: None };
+                let whole = Kind::Scripts { base: base.clone(), primes: *primes, sub: Some(sub.clone()), sup: None };
                 let name = spelling(&Node::new(whole, node.span.clone()));
                 if name.is_empty() { names(base, found) } else { found(name) }
             }
@@ -257,8 +256,28 @@ fn differentials(below: &Node) -> Vec<String> {
 /// Letters that notes use for what does not change in time: masses, capacities, rates; and whatever has the index 0.
 pub fn is_constant(name: &str) -> bool {
     const LETTERS: [&str; 22] = [
-        "m", "M", "k", "R", "C", "L", "g", "G", "c", "T", "A", "N", "l", "\\ell", "\\omega", "\\gamma", "\\tau",
-        "\\lambda", "\\mu", "\\varepsilon", "\\epsilon", "\\rho",
+        "m",
+        "M",
+        "k",
+        "R",
+        "C",
+        "L",
+        "g",
+        "G",
+        "c",
+        "T",
+        "A",
+        "N",
+        "l",
+        "\\ell",
+        "\\omega",
+        "\\gamma",
+        "\\tau",
+        "\\lambda",
+        "\\mu",
+        "\\varepsilon",
+        "\\epsilon",
+        "\\rho",
     ];
     let base = name.split('_').next().unwrap_or(name);
     LETTERS.contains(&base) || name.ends_with("_{0}")

@@ -197,13 +197,15 @@ fn conclude(desk: &mut Desk, clauses: &[Clause], open: &[usize]) -> Judgement {
             link.reason = Some("new here: it follows from nothing before it".into());
         } else if link.verdict == Verdict::Fails && !without_symbols(link) {
             (link.verdict, link.strength, link.counterexample) = (Verdict::Undecided, None, None);
-            link.reason = Some("it does not follow from what stands before it: needs a premise, or has a misprint".into());
+            link.reason =
+                Some("it does not follow from what stands before it: needs a premise, or has a misprint".into());
         }
     }
     if !open.is_empty() {
         let worst = judgement.links.iter().max_by_key(|l| l.verdict);
         judgement.verdict = worst.map_or(judgement.verdict, |l| l.verdict);
-        judgement.reason = judgement.links.iter().find(|l| l.verdict == judgement.verdict).and_then(|l| l.reason.clone());
+        judgement.reason =
+            judgement.links.iter().find(|l| l.verdict == judgement.verdict).and_then(|l| l.reason.clone());
         judgement.counterexample = judgement.links.iter().find_map(|l| l.counterexample.clone());
         judgement.strength = judgement.strength.filter(|_| judgement.verdict == Verdict::Fails);
     }

@@ -1,6 +1,6 @@
 //! The LaTeX of one equation, read into a syntax tree in which every node knows its bytes.
 //!
-//! The way of a formula: `tokenizer` splits it into tokens; `matching` pairs `\left` with `\right`, braces and
+//! Macros are expanded first ([`expand`]). The way of a formula then: `tokenizer` splits it into tokens; `matching` pairs `\left` with `\right`, braces and
 //! environments, then brackets and bars; `layout` decides which row breaks and wide spaces separate statements and
 //! forgets the others; `parser` reads what is left by recursive descent. Each step takes linear time, and the nesting
 //! is limited, so that no input overflows the stack.
@@ -9,6 +9,7 @@ pub mod ast;
 mod characters;
 pub mod diff;
 mod error;
+pub mod expand;
 mod layout;
 mod macros;
 mod matching;

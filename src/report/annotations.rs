@@ -65,6 +65,7 @@ pub fn github(run: &Run) -> String {
             let level = if is_error { "error" } else { "notice" };
             let title = property(&format!("({}) {}", judgement.label, word(judgement.verdict)));
             let message = data(&of_one(document, judgement));
+            let file = property(document.path_of(judgement));
             text += &format!("::{level} file={file},line={},title={title}::{message}\n", judgement.line);
         }
         for problem in &document.problems {
@@ -115,8 +116,8 @@ fn rule(id: &str) -> Value {
 }
 
 fn results(document: &DocumentReport) -> Vec<Value> {
-    let place = |line: Option<usize>| {
-        let mut physical = json!({ "artifactLocation": { "uri": uri(&document.path) } });
+    let place = |path: &str, line: Option<usize>| {
+        let mut physical = json!({ "artifactLocation": { "uri": uri(path) } });
         if let Some(line) = line {
             physical["region"] = json!({ "startLine": line });
         }
@@ -131,11 +132,11 @@ fn results(document: &DocumentReport) -> Vec<Value> {
             "ruleId": rule,
             "level": if is_error { "error" } else { "note" },
             "message": { "text": of_one(document, j) },
-            "locations": place(Some(j.line)),
+            "locations": place(document.path_of(j), Some(j.line)),
         })
     });
     let problems = document.problems.iter().map(|problem| {
-        json!({ "ruleId": "document", "level": "error", "message": { "text": problem }, "locations": place(None) })
+        json!({ "ruleId": "document", "level": "error", "message": { "text": problem }, "locations": place(&document.path, None) })
     });
     equations.chain(problems).collect()
 }

@@ -30,6 +30,8 @@ pub(super) fn judgement(label: &str, kind: &str, link: LinkJudgement) -> Judgeme
         label: label.into(),
         numbered: true,
         section: "1 回転 <rotation>".into(),
+        numbers: Vec::new(),
+        file: None,
         line: 10 * label.chars().filter_map(|c| c.to_digit(10)).fold(0, |n, d| 10 * n + d as usize),
         latex: link.latex.clone(),
         kind: kind.into(),

@@ -129,7 +129,7 @@ fn line(
 ) -> std::fmt::Result {
     let w = language.words();
     let mark = paint.verdict(j.verdict, &format!("{} ({})", symbol(j.verdict), one_line(&j.label)));
-    write!(text, "  {mark} {}:{} {}", one_line(&document.path), j.line, w.verdict(j.verdict))?;
+    write!(text, "  {mark} {}:{} {}", one_line(document.path_of(j)), j.line, w.verdict(j.verdict))?;
     let phrase = |verdict| w.phrase(verdict);
     if j.expect == Some(j.verdict) && !j.as_expected {
         let verdict = j.correction.as_ref().map_or("", |c| phrase(c.verdict));

@@ -5,13 +5,17 @@ use miette::{GraphicalReportHandler, GraphicalTheme};
 
 /// All problems of a text, rendered; and what was still delivered.
 fn rendered(source: &str) -> String {
-    let document = parse(source);
-    check_promises(&document);
+    rendered_all(&parse(source))
+}
+
+/// All problems of a document, rendered; and what was still delivered.
+pub fn rendered_all(document: &Document) -> String {
+    check_promises(document);
     let handler =
         GraphicalReportHandler::new_themed(GraphicalTheme::unicode_nocolor()).with_width(110).with_links(false);
     let mut text = String::new();
     for problem in &document.problems {
-        handler.render_report(&mut text, problem.to_miette(&document).as_ref()).unwrap();
+        handler.render_report(&mut text, problem.to_miette(document).as_ref()).unwrap();
         text += "\n";
     }
     let equations: Vec<_> =

@@ -6,6 +6,7 @@ mod files;
 mod hostile;
 mod messages;
 mod originals;
+mod tex;
 
 use super::*;
 use std::path::Path;
@@ -36,7 +37,7 @@ fn check_promises(document: &Document) {
     for equation in document.equations() {
         assert_eq!(document.source.get(equation.span.clone()), Some(equation.latex.as_str()));
         assert_eq!(equation.masked.len(), equation.latex.len());
-        assert_eq!(document.lines.line(equation.span.start), equation.line);
+        assert_eq!(document.line_column(equation.span.start).0, equation.line);
         assert!(labels.insert(equation.label.as_str()), "label {} is not unique", equation.label);
     }
     for problem in &document.problems {
