@@ -11,7 +11,7 @@
 
 mod candidates;
 mod desk;
-mod evidence;
+pub mod evidence;
 mod formulas;
 mod judge;
 mod premises;
