@@ -6,7 +6,7 @@ use std::fmt::Write;
 
 use crate::check::verdict::{Judgement, Verdict};
 use crate::document::{Document, Equation};
-use crate::infer::roles::{self, Guess, Role};
+use crate::infer::roles::{self, Guess, Role, quoted};
 use crate::verify::{self, Request};
 
 /// The scaffold of a document.
@@ -198,12 +198,4 @@ fn remarks(judgement: &Judgement) -> String {
 
 fn one_line(text: &str) -> String {
     text.split_whitespace().collect::<Vec<_>>().join(" ")
-}
-
-/// A text in TOML's quotes: single ones, in which a backslash is a backslash, where these can hold it.
-fn quoted(text: &str) -> String {
-    match text.contains(['\'', '\n']) {
-        false => format!("'{text}'"),
-        true => toml::Value::String(text.to_owned()).to_string(),
-    }
 }

@@ -23,3 +23,6 @@ mod suspects;
 
 pub use formulas::declare_functions;
 pub use judge::Ground;
+
+#[cfg(test)]
+mod tests;

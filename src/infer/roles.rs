@@ -326,12 +326,18 @@ fn letters(sub: &str) -> Vec<String> {
     letters
 }
 
+/// A text in TOML's quotes: single ones, in which a backslash is a backslash, where these can hold it.
+pub fn quoted(text: &str) -> String {
+    match text.contains(['\'', '\n']) {
+        false => format!("'{text}'"),
+        // What JSON escapes TOML does, too, and in the same way.
+        true => serde_json::Value::from(text).to_string(),
+    }
+}
+
 /// A declaration in TOML, as it stands behind the symbol's name.
 pub fn toml(declaration: &SymbolDeclaration) -> String {
-    let text = |value: &Spanned<String>| match value.value.contains(['\'', '\n']) {
-        false => format!("'{}'", value.value),
-        true => toml::Value::String(value.value.clone()).to_string(),
-    };
+    let text = |value: &Spanned<String>| quoted(&value.value);
     let list = |values: &[Spanned<String>]| format!("[{}]", values.iter().map(text).collect::<Vec<_>>().join(", "));
     let functions = match &declaration.function {
         Some(Arguments::Names(names)) => Some(list(names)),
