@@ -68,6 +68,9 @@ enum Command {
         /// All that costs more than a verdict: --mutants and --suggest.
         #[arg(long)]
         deep: bool,
+        /// The language of the report's pages and of the summary; the locale's otherwise.
+        #[arg(long, value_enum)]
+        lang: Option<report::Language>,
     },
     /// Search where the formulas of the notes lose their digits, and forms that do not.
     Stability(stability::Arguments),
@@ -162,10 +165,16 @@ pub fn main() -> ExitCode {
         }
     };
     let outcome = match arguments.command {
-        Command::Verify { paths, out, format, no_times, sampling, only, mutants, suggest, deep } => {
+        Command::Verify { paths, out, format, no_times, sampling, only, mutants, suggest, deep, lang } => {
             let (mutants, suggest) = (mutants || deep, suggest || deep);
             let request = Request { paths, options: sampling.options(), only, mutants, suggest };
-            let printed = Printed { format, options: report::Options { times: !no_times } };
+            let printed = Printed {
+                format,
+                options: report::Options {
+                    times: !no_times,
+                    language: lang.unwrap_or_else(report::Language::of_locale),
+                },
+            };
             in_pool(sampling.jobs, || verify_command(&request, &out, printed))
         }
         Command::Stability(arguments) => in_pool(arguments.jobs, || stability::run(&arguments).map(|()| AS_EXPECTED)),
@@ -246,7 +255,7 @@ fn print(run: &Run, printed: Printed, written: &report::Written) -> miette::Resu
         Format::Human => {
             let colour = std::io::stdout().is_terminal() && std::env::var_os("NO_COLOR").is_none();
             let summary = terminal::render(run, colour, printed.options);
-            format!("{summary}\nreport: {}\n", written.html.display())
+            format!("{summary}\n{}\n", report::words::where_to_begin(printed.options.language, &written.html))
         }
         Format::Json => report::json::render(run, printed.options)?,
         Format::Junit => report::annotations::junit(run, printed.options.times)?,

@@ -9,11 +9,11 @@
 //! | floor | modules |
 //! |---|---|
 //! | 6 | `cli` |
-//! | 5 | `verify`, `explain`, `speed`, `stability` |
+//! | 5 | `verify`, `incremental`, `explain`, `speed`, `stability` |
 //! | 4 | `report`, `diagnose`, `infer` |
 //! | 3 | `semantics`, `check`, `scene` |
 //! | 2 | `expr`, `integrator` |
-//! | 1 | `document`, `latex`, `number`, `breakdown` |
+//! | 1 | `document`, `latex`, `number`, `breakdown`, `trace` |
 
 pub mod breakdown;
 pub mod check;
@@ -22,6 +22,7 @@ pub mod diagnose;
 pub mod document;
 pub mod explain;
 pub mod expr;
+pub mod incremental;
 pub mod infer;
 pub mod integrator;
 pub mod latex;
@@ -33,4 +34,5 @@ pub mod speed;
 pub mod stability;
 #[cfg(test)]
 mod testing;
+pub mod trace;
 pub mod verify;

@@ -8,10 +8,11 @@ use rayon::prelude::*;
 use crate::breakdown::caught;
 use crate::check::dimension::Survey;
 use crate::check::verdict::{Assumed, DocumentReport, Judgement, Verdict};
-use crate::check::{self, Book, Options};
+use crate::check::{self, Book, Fingerprints, Options};
 use crate::diagnose::{correct, sensitivity};
 use crate::document::{self, Document, ReadError};
 use crate::expr::Deadline;
+use crate::incremental::{Judged, Memory};
 use crate::infer::{self, Ground, roles};
 use crate::report::{Run, charts};
 
@@ -64,32 +65,50 @@ pub fn documents(paths: &[PathBuf]) -> Result<Vec<Document>, ReadError> {
 
 /// Judges a document's equations, each on its own: one that panics costs no other. `judged` is called after each.
 pub fn verify(document: Document, request: &Request, judged: &(dyn Fn() + Sync)) -> Verified {
+    verify_again(document, request, &mut Memory::default(), judged).0
+}
+
+/// As [`verify`], with what is remembered of an earlier state of the document under the same request. Says which
+/// equations were judged anew, by their places among all. Of a document that declares nothing all are: what an equation
+/// follows from is looked for in all that stands before it.
+pub fn verify_again(
+    document: Document,
+    request: &Request,
+    memory: &mut Memory,
+    judged: &(dyn Fn() + Sync),
+) -> (Verified, Vec<usize>) {
     let guesses = if roles::declares_symbols(&document) { Vec::new() } else { roles::guess(&document) };
     let assumed = guesses.iter().map(|g| assumed(g, &document)).collect();
     let document = if guesses.is_empty() { document } else { roles::declare(&document, &guesses) };
-    let mut book = Book::new(&document);
-    if !guesses.is_empty() {
+    let mut book = memory.book(&document);
+    let ground = (!guesses.is_empty()).then(|| {
         infer::declare_functions(&mut book, &document);
-    }
-    let ground = (!guesses.is_empty()).then(|| Ground::new(&book, &document, guesses));
-    let wanted: Vec<usize> = (0..book.entries.len())
-        .filter(|k| {
-            let equation = &book.entries[*k].equation;
-            request.only.is_empty() || request.only.iter().any(|label| equation.is_called(label))
-        })
+        Ground::new(&book, &document, guesses)
+    });
+    let prints = Fingerprints::new(&book);
+    let wanted: Vec<usize> = book
+        .entries
+        .iter()
+        .enumerate()
+        .filter(|(_, entry)| request.only.is_empty() || request.only.iter().any(|only| entry.equation.is_called(only)))
+        .map(|(k, _)| k)
         .collect();
-    // An equation of which nothing is declared is given premises in a book of one's own.
-    let own = || ground.as_ref().map(|_| book.clone());
-    let judge = |own: &mut Option<Book>, index: &usize| {
-        let outcome = caught(|| match (&ground, own) {
-            (Some(ground), Some(own)) => ground.judge(own, *index, &request.options),
-            _ => judged_and_diagnosed(&book, *index, request),
+    let judge = |index: usize| {
+        let outcome = caught(|| match &ground {
+            Some(ground) => ground.judge(&mut book.clone(), index, &request.options),
+            None => judged_and_diagnosed(&book, index, request),
         });
         judged();
-        outcome.unwrap_or_else(|panic| broken(&book, *index, &panic))
+        outcome.unwrap_or_else(|panic| broken(&book, index, &panic))
     };
-    let (survey, mut equations): (_, Vec<Judgement>) =
-        rayon::join(|| caught(|| Survey::new(&book)).ok(), || wanted.par_iter().map_init(own, judge).collect());
+    let Judged { judgements: mut equations, anew } = match &ground {
+        None => memory.judge(&prints, &wanted, judge),
+        Some(_) => {
+            let judgements = wanted.par_iter().map(|index| judge(*index)).collect();
+            Judged { judgements, anew: wanted.clone() }
+        }
+    };
+    let survey = caught(|| Survey::with(&prints, &mut memory.readings)).ok();
     if let Some(survey) = &survey {
         // Dimensions decide no verdict: without them the judgement stands.
         let report = |(index, judgement): (&usize, &mut Judgement)| drop(caught(|| survey.report(*index, judgement)));
@@ -105,7 +124,7 @@ pub fn verify(document: Document, request: &Request, judged: &(dyn Fn() + Sync))
         assumed,
         equations,
     };
-    Verified { document, problems, report }
+    (Verified { document, problems, report }, anew)
 }
 
 /// A guessed role for the report.

@@ -10,7 +10,8 @@ use std::time::Instant;
 
 use kenzan::check::Options;
 use kenzan::document;
-use kenzan::report::{self, Run, html, json};
+use kenzan::report::html::Page;
+use kenzan::report::{self, Language, Run, html, json};
 use kenzan::verify::{self, Request};
 use scraper::{Html, Node};
 
@@ -108,18 +109,26 @@ fn run() -> Run {
     verify::run(&verified, &request, Instant::now())
 }
 
+/// The pages of a run.
+fn pages(run: &Run, language: Language) -> Vec<Page> {
+    html::pages(run, report::Options { times: false, language }).unwrap()
+}
+
 /// The elements that the report is made of. MathML and SVG have none among theirs that run or load.
-const ELEMENTS: &str = "html head meta title style body a header p span h1 h2 h3 h4 main nav section article div ul ol li \
-    dl dt dd table caption thead tbody tr th td details summary pre code strong em small footer time abbr sup sub br \
+const ELEMENTS: &str = "html head meta title style script body a header p span h1 h2 h3 h4 main nav section article div \
+    ul ol li dl dt dd table caption thead tbody tr th td details summary pre code strong em small footer time abbr sup \
+    sub br del ins figure figcaption \
+    label input select option fieldset legend button \
     math menclose mfrac mi mn mo mover mpadded mphantom mroot mrow mspace msqrt mstyle msub msubsup msup mtable mtd mtext \
     mtr munder munderover \
     svg g line path circle polyline polygon rect text title desc";
 
 const ATTRIBUTES: &str = "class id href lang style aria-hidden aria-label aria-labelledby aria-describedby role open \
-    colspan rowspan scope content charset name http-equiv hidden tabindex title datetime";
+    colspan rowspan scope content charset name http-equiv hidden tabindex title datetime \
+    for type value autocomplete spellcheck data-text data-copied data-failed";
 
 /// What is wrong with an element of the report.
-fn defect(element: &scraper::node::Element) -> Option<String> {
+fn defect(element: &scraper::node::Element, files: &[&str]) -> Option<String> {
     let name = element.name();
     if !ELEMENTS.split_whitespace().any(|e| e == name) {
         return Some(format!("<{name}>"));
@@ -130,41 +139,66 @@ fn defect(element: &scraper::node::Element) -> Option<String> {
         .any(|e| e == name);
     for (key, value) in element.attrs() {
         let known = ATTRIBUTES.split_whitespace().any(|a| a == key) || drawn && !key.contains(':');
-        let runs = key.starts_with("on") || key == "src" || key == "srcdoc" || key == "action" || key == "xlink:href";
-        let leads_away = key == "href" && !value.starts_with('#');
-        let loads =
-            value.contains("url(") || value.to_lowercase().contains("javascript:") && key != "id" && key != "content";
-        let styled = key == "style" && !value.starts_with("flex-grow:");
-        if !known || runs || leads_away || loads || styled {
+        let runs = key.starts_with("on") || ["src", "srcdoc", "action", "formaction", "xlink:href"].contains(&key);
+        let page = value.split('#').next().unwrap_or_default();
+        let leads_away = key == "href" && !value.starts_with('#') && !files.contains(&page);
+        // What only names, describes or is compared is text whatever it says.
+        let text = ["id", "content", "value", "aria-label", "title", "alttext"].contains(&key);
+        let loads = !text && (value.contains("url(") || value.to_lowercase().contains("javascript:"));
+        let typed = key == "type" && !["search", "checkbox", "button"].contains(&value);
+        if !known || runs || leads_away || loads || typed || key == "style" {
             return Some(format!("<{name} {key}=\"{value}\">"));
         }
     }
     None
 }
 
+/// The one script that is there, if any, is Kenzan's own, and so is the style: whole, and known to the policy.
+fn check_policy(page: &Page) {
+    let begin = page.html.find("Content-Security-Policy").unwrap();
+    assert!(begin < page.html.find("<title>").unwrap(), "before anything of the notes");
+    let policy = page.html[begin..].split('>').next().unwrap();
+    assert!(
+        policy.starts_with("Content-Security-Policy\" content=\"default-src 'none'; style-src 'sha256-"),
+        "{policy}"
+    );
+    assert!(policy.ends_with("base-uri 'none'; form-action 'none'\"") && !policy.contains("unsafe"), "{policy}");
+    let script = concat!("<script>\n", include_str!("../templates/report.js"), "</script>");
+    let scripts = page.html.matches("<script").count();
+    assert_eq!((scripts, page.html.matches(script).count()), (scripts.min(1), scripts), "{}", page.file);
+    assert_eq!(policy.contains("script-src 'sha256-"), scripts == 1, "{}: {policy}", page.file);
+    assert_eq!(policy.matches("-src").count(), 2 + scripts, "{policy}");
+}
+
 #[test]
 fn an_html_parser_sees_nothing_that_runs_links_or_loads() {
     let run = run();
     assert!(run.documents.len() == PAYLOADS.len() && run.documents.iter().all(|d| d.equations.len() >= 3));
-    let page = html::render(&run, report::Options { times: false }).unwrap();
-    let tree = Html::parse_document(&page);
-    let elements = tree.tree.values().filter_map(|node| match node {
-        Node::Element(element) => Some(element),
-        _ => None,
-    });
-    let defects: Vec<String> = elements.filter_map(defect).collect();
-    assert!(defects.is_empty(), "{} defects: {:.2000}", defects.len(), defects.join("\n"));
-    // What a parser would have to guess at may be guessed otherwise by another.
-    let comments = tree.tree.values().filter(|node| matches!(node, Node::Comment(_) | Node::ProcessingInstruction(_)));
-    assert_eq!(comments.count(), 0);
-    let titles = tree.tree.values().filter(|n| matches!(n, Node::Element(e) if e.name() == "title")).count();
-    assert_eq!(titles, 1, "one title");
-    // The payloads are there, as text.
-    let text: String = tree.root_element().text().collect();
-    assert!(text.contains(r#"<script>document.title="owned"</script>"#) && text.contains("{{ 7 * 7 }}"));
-    let policy = page.find("Content-Security-Policy").unwrap();
-    assert!(page[policy..].starts_with("Content-Security-Policy\" content=\"default-src 'none'; "), "a strict policy");
-    assert!(policy < page.find("<title>").unwrap(), "before anything of the notes");
+    for language in [Language::English, Language::Japanese] {
+        let pages = pages(&run, language);
+        assert!(pages.len() > PAYLOADS.len());
+        let files: Vec<&str> = pages.iter().map(|p| p.file.as_str()).collect();
+        assert!(files.iter().all(|file| !file.contains(['/', '\\', '<', '"', ':', '#', '?', '%'])), "{files:?}");
+        for page in &pages {
+            check_policy(page);
+            let tree = Html::parse_document(&page.html);
+            let elements = tree.tree.values().filter_map(|node| match node {
+                Node::Element(element) => Some(element),
+                _ => None,
+            });
+            let defects: Vec<String> = elements.filter_map(|e| defect(e, &files)).collect();
+            assert!(defects.is_empty(), "{} defects: {:.2000}", defects.len(), defects.join("\n"));
+            // What a parser would have to guess at may be guessed otherwise by another.
+            let guessed = |node: &&Node| matches!(node, Node::Comment(_) | Node::ProcessingInstruction(_));
+            assert_eq!(tree.tree.values().filter(guessed).count(), 0);
+            let titles = tree.tree.values().filter(|n| matches!(n, Node::Element(e) if e.name() == "title")).count();
+            assert_eq!(titles, 1, "one title");
+        }
+        // The payloads are there, as text.
+        let text = |page: &Page| Html::parse_document(&page.html).root_element().text().collect::<String>();
+        assert!(text(&pages[0]).contains(r#"<script>document.title="owned"</script>"#));
+        assert!(pages.iter().any(|page| text(page).contains("{{ 7 * 7 }}")));
+    }
 }
 
 /// JSON within a page would end at `</script>`; `report.json` is a file of its own, and says what the notes say.
@@ -175,7 +209,7 @@ fn the_data_are_json_and_in_no_page() {
         serde_json::from_str(&json::render(&run, report::Options::default()).unwrap()).unwrap();
     let latex = data["documents"][0]["equations"][0]["latex"].as_str().unwrap();
     assert!(latex.contains(PAYLOADS[0]), "{latex}");
-    assert!(!html::render(&run, report::Options::default()).unwrap().contains("\"documents\""));
+    assert!(pages(&run, Language::English).iter().all(|page| !page.html.contains("\"documents\"")));
 }
 
 fn browser() -> Option<PathBuf> {
@@ -216,15 +250,30 @@ fn a_browser_runs_nothing() {
         return println!("skipped: the browser does not start");
     };
     assert_eq!(title(&dom), "owned", "the browser runs scripts");
-    let page = html::render(&run(), report::Options { times: false }).unwrap();
-    // The browser writes the same text with fewer escapes, and NUL as a sign for what it cannot read.
-    let expected = title(&page).replace("&quot;", "\"").replace("&#39;", "'").replace('\0', "\u{fffd}");
-    let dom = rendered(&browser, "report", &page).expect("the browser that showed one page shows the other");
-    assert_eq!(title(&dom), expected);
-    // Without its policy the page runs nothing either: the policy is a second wall.
-    let (before, rest) = page.split_once("<meta http-equiv=").unwrap();
-    let (_, after) = rest.split_once('>').unwrap();
-    let open = rendered(&browser, "open", &format!("{before}{after}")).unwrap();
-    assert_eq!(title(&open), expected);
-    assert!(!open.contains("<iframe") && !open.contains("<img") && !open.contains("<script"));
+    let mut all = run();
+    let several = pages(&all, Language::English);
+    // One document that has everything of all.
+    let mut rest = all.documents.split_off(1);
+    for document in &mut rest {
+        all.documents[0].equations.append(&mut document.equations);
+        all.documents[0].problems.append(&mut document.problems);
+    }
+    let mut shown = pages(&all, Language::Japanese);
+    shown.extend(several.into_iter().next_back());
+    for (k, page) in shown.iter().enumerate() {
+        // The browser writes the same text with fewer escapes, and NUL as a sign for what it cannot read.
+        let expected = title(&page.html).replace("&quot;", "\"").replace("&#39;", "'").replace('\0', "\u{fffd}");
+        let dom =
+            rendered(&browser, &format!("report-{k}"), &page.html).expect("the browser shows one page as another");
+        assert_eq!(title(&dom), expected);
+        // Kenzan's own script runs, on the pages that have it.
+        let scripts = page.html.matches("<script>").count();
+        assert_eq!(dom.contains("with-script\""), scripts == 1, "{}", page.file);
+        // Without its policy the page runs nothing else either: the policy is a second wall.
+        let (before, rest) = page.html.split_once("<meta http-equiv=").unwrap();
+        let (_, after) = rest.split_once('>').unwrap();
+        let open = rendered(&browser, &format!("open-{k}"), &format!("{before}{after}")).unwrap();
+        assert_eq!(title(&open), expected);
+        assert!(!open.contains("<iframe") && !open.contains("<img") && open.matches("<script").count() == scripts);
+    }
 }

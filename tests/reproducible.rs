@@ -23,9 +23,14 @@ fn reports_of(request: &Request, threads: usize) -> (String, String) {
         let documents = verify::documents(&request.paths).unwrap();
         let verified: Vec<_> = documents.into_iter().map(|d| verify::verify(d, &request, &|| ())).collect();
         let run = verify::run(&verified, &request, Instant::now());
-        let without_times = report::Options { times: false };
-        (html::render(&run, without_times).unwrap(), json::render(&run, without_times).unwrap())
+        let without_times = report::Options { times: false, ..report::Options::default() };
+        (pages(&run, without_times), json::render(&run, without_times).unwrap())
     })
+}
+
+/// All pages in one text.
+fn pages(run: &report::Run, options: report::Options) -> String {
+    html::pages(run, options).unwrap().into_iter().map(|page| page.html).collect()
 }
 
 /// Both texts from the first line in which they differ, for a message that can be read.

@@ -9,6 +9,9 @@ use crate::latex::{self, ParseError, ast::Node};
 use crate::semantics::{self, Scope, Statement};
 
 use super::circle::{Circle, circles};
+use super::entries::Entries;
+use super::formulas::Formulas;
+use crate::trace::{self, unrecorded};
 
 /// The longest formula that is judged, in bytes: ten pages.
 const LONGEST: usize = 1 << 16;
@@ -77,11 +80,11 @@ pub struct Entry {
     /// The heading it stands under.
     pub section: String,
     /// The formula as printed, its label blanked out.
-    pub printed: Formula,
+    pub printed: Arc<Formula>,
     /// The `reading`.
-    pub reading: Option<Formula>,
+    pub reading: Option<Arc<Formula>>,
     /// The `correction`.
-    pub correction: Option<Formula>,
+    pub correction: Option<Arc<Formula>>,
     /// The equation before it, which it continues if it begins with a relation.
     pub previous: Option<usize>,
     /// The declared symbols it mentions: the pattern, and where it is declared, which tells apart the symbols of different
@@ -135,7 +138,7 @@ impl Entry {
 #[derive(Clone, Debug, Default)]
 pub struct Book {
     /// The equations in order.
-    pub entries: Vec<Entry>,
+    pub entries: Entries,
     /// What is wrong with the declarations.
     pub problems: Vec<Problem>,
     labels: HashMap<String, usize>,
@@ -149,6 +152,12 @@ pub struct Book {
 impl Book {
     /// Parses every formula of a document and works out the scope of every equation.
     pub fn new(document: &Document) -> Self {
+        Book::with(document, &mut Formulas::default())
+    }
+
+    /// As [`Book::new`], without parsing again what has been parsed before.
+    pub fn with(document: &Document, formulas: &mut Formulas) -> Self {
+        formulas.turn();
         let mut book = Book::default();
         let mut scopes = Scopes::default();
         let mut section = String::new();
@@ -165,7 +174,7 @@ impl Book {
                 }
                 Item::Equation(equation) => {
                     let index = book.entries.len();
-                    book.add(equation, &scopes.current(), &section, previous);
+                    book.add(equation, &scopes.current(), &section, previous, formulas);
                     if !equation.inline {
                         previous = Some(index);
                     }
@@ -176,14 +185,21 @@ impl Book {
         book
     }
 
-    fn add(&mut self, equation: &Equation, scope: &Arc<Scope>, section: &str, previous: Option<usize>) {
+    fn add(
+        &mut self,
+        equation: &Equation,
+        scope: &Arc<Scope>,
+        section: &str,
+        previous: Option<usize>,
+        formulas: &mut Formulas,
+    ) {
         let annotation = equation.annotation.as_ref();
         let scope = match annotation {
             Some(a) if !a.symbols.is_empty() => Arc::new(scope.with_local(&a.symbols, &mut self.problems)),
             _ => Arc::clone(scope),
         };
-        let formula = |text: &Option<Spanned<String>>| text.as_ref().map(|t| Formula::new(&t.value));
-        let printed = Formula::with_macros(&format!("{}{}", equation.prefix, equation.masked), &equation.macros);
+        let printed = formulas.read_with(&format!("{}{}", equation.prefix, equation.masked), &equation.macros);
+        let mut formula = |text: &Option<Spanned<String>>| text.as_ref().map(|t| formulas.read(&t.value));
         let reading = annotation.and_then(|a| formula(&a.reading));
         let correction = annotation.and_then(|a| formula(&a.correction));
         let mut mentions = HashSet::new();
@@ -215,11 +231,26 @@ impl Book {
 
     /// The equation that a reference means, with the statement of it, counted from 1, where one is named: `75.2`.
     pub fn find(&self, reference: &str) -> Option<(usize, Option<usize>)> {
+        trace::reference(reference);
         if let Some(index) = self.labels.get(reference).or_else(|| self.numbers.get(reference)) {
             return Some((*index, None));
         }
         let (label, part) = reference.rsplit_once('.')?;
         Some((*self.labels.get(label)?, Some(part.parse().ok()?)))
+    }
+
+    /// The equation of a label.
+    pub(super) fn labelled(&self, label: &str) -> Option<usize> {
+        self.labels.get(label).copied()
+    }
+
+    /// The equations up to so many places before and behind one, the nearest first.
+    pub fn around(&self, index: usize, reach: usize) -> Vec<usize> {
+        trace::around(index, reach);
+        let mut around: Vec<usize> =
+            (index.saturating_sub(reach)..=index + reach).filter(|k| *k != index && *k < self.entries.len()).collect();
+        around.sort_by_key(|k| k.abs_diff(index));
+        around
     }
 
     /// References to equations and links that do not exist, and `given`s that go in a circle.
@@ -275,7 +306,8 @@ impl Book {
 
     /// The circle of `given`s through an equation, by labels, if there is one: `1 → 2 → 1`.
     pub fn circle(&self, index: usize) -> Option<String> {
-        Some(self.circles.get(&index)?.text(|k| self.entries[k].equation.label.clone()))
+        trace::circle(index);
+        Some(self.circles.get(&index)?.text(|k| self.entries.quietly(k).equation.label.clone()))
     }
 
     /// An equation taken apart. One that begins with a relation continues the equation before, as corrected.
@@ -291,9 +323,9 @@ impl Book {
         // The formulas that are continued, the last first.
         let mut chain = vec![(index, tree)];
         let mut at = index;
-        while let (Some(previous), true) =
-            (self.entries[at].previous, semantics::begins_with_relation(chain[chain.len() - 1].1))
-        {
+        while semantics::begins_with_relation(chain[chain.len() - 1].1) {
+            trace::continued(at);
+            let Some(previous) = self.entries[at].previous else { break };
             at = previous;
             if chain.len() > LONGEST_CHAIN {
                 return Err(before(at, &format!("more than {LONGEST_CHAIN} equations continue each other")));
@@ -319,14 +351,22 @@ impl Book {
     /// Whether a symbol is mentioned by an equation before this one that does not rest on this one, or by one that this
     /// one rests on.
     pub fn mentioned_before(&self, index: usize, pattern: &str) -> bool {
-        let declared = self.entries[index].scope.get(pattern).map(|e| e.declared);
-        let given = |e: &Entry| -> Vec<usize> {
-            e.given(None).iter().filter_map(|g| self.find(&g.value)).map(|(k, _)| k).collect()
-        };
-        let rests = |e: &Entry| given(e).contains(&index);
-        let mut earlier = self.mentioned.get(pattern).into_iter().flatten().take_while(|k| **k < index);
-        earlier.any(|k| self.entries[*k].mentions.get(pattern).copied() == declared && !rests(&self.entries[*k]))
-            || given(&self.entries[index]).iter().any(|k| self.entries[*k].mentions.contains_key(pattern))
+        trace::mentioned(index, pattern);
+        let entry = |k: usize| self.entries.quietly(k);
+        let declared = |k: usize| entry(k).mentions.get(pattern).copied();
+        unrecorded(|| {
+            let own = entry(index).scope.get(pattern).map(|e| e.declared);
+            let rests = |k: usize| self.given_to(k).contains(&index);
+            let mut earlier = self.mentioned.get(pattern).into_iter().flatten().take_while(|k| **k < index);
+            earlier.any(|k| declared(*k) == own && !rests(*k))
+                || self.given_to(index).iter().any(|k| entry(*k).mentions.contains_key(pattern))
+        })
+    }
+
+    /// The equations that one rests on.
+    fn given_to(&self, index: usize) -> Vec<usize> {
+        let given = self.entries.quietly(index).given(None);
+        given.iter().filter_map(|g| self.find(&g.value)).map(|(k, _)| k).collect()
     }
 }
 

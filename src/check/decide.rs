@@ -150,6 +150,9 @@ fn decide<N: Real>(
     if let Some((k, pair)) = tally.first_failing {
         judgement.verdict = Verdict::Fails;
         judgement.strength = Some(Strength::Numeric);
+        if !options.evidence {
+            return judgement;
+        }
         let small = shrink(sampler, &states[k], pair);
         if let Some(branches) = sampler.evaluate::<N>(&small.state, cx, &mut work) {
             let (value, pair) = (&branches[0][pair], &sampler.claim.branches[0][pair]);

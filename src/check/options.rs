@@ -11,7 +11,7 @@ pub struct Options {
     pub states: usize,
     /// The precision in bits to decide in, where one is asked for (feature `rug`); otherwise double-double.
     pub precision: Option<u32>,
-    /// Whether a judgement is to say more than its verdict rests on: certificates of counterexamples (feature `rug`), the
+    /// Whether a judgement is to say more than its verdict rests on: small counterexamples, their certificates (feature `rug`), the
     /// bits that doubles lose.
     pub evidence: bool,
     /// The time that each stage may take for an equation: judging it, judging its correction, trying its mutants,

@@ -42,7 +42,8 @@ pub fn run(arguments: &Arguments) -> miette::Result<()> {
     let request = Request { seed: arguments.seed, only: arguments.only.clone(), times };
     let found = stability(&documents, &request, &|| bar.inc(1))?;
     bar.finish_and_clear();
-    let written = report::stability::write(&found, &arguments.out, report::Options { times })?;
+    let written =
+        report::stability::write(&found, &arguments.out, report::Options { times, ..report::Options::default() })?;
     super::print_text(&format!("{}\nreport: {}\n", summary(&found, times), written.html.display()));
     Ok(())
 }

@@ -57,7 +57,7 @@ pub fn meant(book: &Book, index: usize, tree: &Node, links: &[LinkJudgement], op
         return Vec::new();
     }
     let mut printed = book.clone();
-    printed.entries[index].reading = Some(crate::check::Formula::made(latex, tree.clone()));
+    printed.entries[index].reading = Some(crate::check::Formula::made(latex, tree.clone()).into());
     printed.entries[index].correction = None;
     let Some(trial) = Trial::new(&printed, index, Version::Printed, links, options) else { return Vec::new() };
     let near = Near::new(&printed, index, tree);

@@ -36,14 +36,11 @@ impl Near {
         let given = entry.given(None).into_iter().chain(entry.list(|a| &a.solves));
         let given: Vec<usize> = given.filter_map(|g| book.find(&g.value)).map(|(k, _)| k).collect();
         let formula = |k: usize, version| book.entries[k].formula(version).tree.as_ref().ok().cloned();
-        let mut around: Vec<usize> = (index.saturating_sub(AROUND)..=index + AROUND)
-            .filter(|k| *k != index && *k < book.entries.len() && !given.contains(k))
-            .collect();
-        around.sort_by_key(|k| k.abs_diff(index));
+        let around = book.around(index, AROUND).into_iter().filter(|k| !given.contains(k));
         let displays = given.iter().filter_map(|k| formula(*k, Version::Corrected));
         let displays: Vec<Node> = std::iter::once(tree.clone())
             .chain(displays)
-            .chain(around.into_iter().filter_map(|k| formula(k, Version::Printed)))
+            .chain(around.filter_map(|k| formula(k, Version::Printed)))
             .collect();
         let premises = entry.list(|a| &a.where_).iter().chain(&entry.scope.assume);
         let premises: Vec<Node> = premises.filter_map(|p| latex::parse(&p.value).ok()).collect();

@@ -6,9 +6,10 @@ use std::sync::Arc;
 use crate::check::{Book, Version};
 use crate::document::{Arguments, Document, Spanned, SymbolDeclaration};
 use crate::latex::ast::{Delim, Kind, Node};
-use crate::latex::{self, to_latex};
+use crate::latex::to_latex;
 use crate::semantics::{self, spelling};
 
+use super::candidates::inline;
 use super::evidence::{Evidence, names};
 
 /// Declares, for each equation with such a derivative, what is derived by the last formula for it before.
@@ -19,10 +20,7 @@ pub fn declare_functions(book: &mut Book, document: &Document) {
             known.push((entry.equation.span.start, tree.clone()));
         }
     }
-    for span in &document.formulas {
-        let latex = document.formula(span);
-        known.extend(latex::parse(latex).ok().map(|tree| (span.start, tree)));
-    }
+    known.extend(inline(document).filter_map(|(span, formula)| Some((span.start, formula.tree.ok()?))));
     known.sort_by_key(|(at, _)| *at);
     for index in 0..book.entries.len() {
         let entry = &book.entries[index];

@@ -12,8 +12,8 @@ const LONGEST: usize = 4000;
 /// or that the sentence after it names.
 pub fn named(book: &Book, document: &Document, index: usize) -> BTreeSet<usize> {
     let own = &book.entries[index].equation.span;
-    let before = book.entries[..index].iter().rev().map(|e| e.equation.span.end).find(|end| *end <= own.start);
-    let after = book.entries[index + 1..].iter().map(|e| e.equation.span.start).find(|start| *start >= own.end);
+    let before = book.entries.iter().take(index).rev().map(|e| e.equation.span.end).find(|end| *end <= own.start);
+    let after = book.entries.iter().skip(index + 1).map(|e| e.equation.span.start).find(|start| *start >= own.end);
     let from = before.unwrap_or(0).max(own.start.saturating_sub(LONGEST));
     let to = after.unwrap_or(document.source.len()).min(own.end + LONGEST);
     let prose = |range: std::ops::Range<usize>| {

@@ -9,9 +9,10 @@ use std::collections::BTreeMap;
 
 use crate::check::{Book, Version};
 use crate::document::{Declarations, Document, Item, Problem, Span, Spanned, SymbolDeclaration};
-use crate::latex::{self, ast::Node};
+use crate::latex::ast::Node;
 use crate::semantics::{Clause, Error, ErrorKind, Scope, World, understand};
 
+use super::candidates::inline;
 use super::evidence::Evidence;
 use super::reshape;
 
@@ -141,8 +142,7 @@ pub fn declares_symbols(document: &Document) -> bool {
 pub fn guess(document: &Document) -> Vec<Guess> {
     let book = Book::new(document);
     let mut evidence = Evidence::default();
-    let formulas = document.formulas.iter().map(|span| document.formula(span));
-    let inline: Vec<Node> = formulas.filter_map(|latex| latex::parse(latex).ok()).collect();
+    let inline: Vec<Node> = inline(document).filter_map(|(_, formula)| formula.tree.ok()).collect();
     let displays = book.entries.iter().filter_map(|e| e.formula(Version::Printed).tree.as_ref().ok());
     displays.chain(&inline).for_each(|tree| evidence.look(tree));
     evidence.spread_motion();
@@ -151,7 +151,11 @@ pub fn guess(document: &Document) -> Vec<Guess> {
     let mut clauses = Vec::new();
     for (index, entry) in book.entries.iter().enumerate() {
         let Ok(statement) = book.statement(index, Version::Printed) else { continue };
-        let place = (entry.equation.span.clone(), entry.equation.prefix.len());
+        let place = |span: &Span| {
+            let prefix = entry.equation.prefix.len();
+            let at = entry.formula(Version::Printed).expanded.place(span).start;
+            entry.equation.span.start + at.saturating_sub(prefix)
+        };
         for clause in statement.clauses {
             guesser.read(&clause, &place);
             clauses.push(clause);
@@ -196,13 +200,12 @@ struct Guesser {
 }
 
 impl Guesser {
-    /// Declares what a clause needs. `place` is where its equation stands, and how much is read before that.
-    fn read(&mut self, clause: &Clause, place: &(Span, usize)) {
+    /// Declares what a clause needs. `place` is where a part of its formula stands in the file.
+    fn read(&mut self, clause: &Clause, place: &dyn Fn(&Span) -> usize) {
         for _ in 0..MOST_SYMBOLS {
             let Err(error) = reading(&self.scope, clause) else { return };
             let (ErrorKind::Undeclared, Some(name)) = (error.kind, &error.missing) else { return };
-            let at = place.0.start + error.span.start.saturating_sub(place.1);
-            if name.is_empty() || !self.declare(name, at) {
+            if name.is_empty() || !self.declare(name, place(&error.span)) {
                 return;
             }
         }

@@ -1,4 +1,4 @@
-//! Telling: a finished run as one self-contained HTML page, as JSON for other tools, and as text for the terminal.
+//! Telling: a finished run as self-contained HTML pages, as JSON for other tools, and as text for the terminal.
 //!
 //! The same run gives the same bytes, times apart: [`Options::times`] leaves those out.
 
@@ -10,6 +10,7 @@ pub mod html;
 pub mod json;
 mod math;
 mod mathml;
+mod names;
 pub mod speed;
 pub mod stability;
 mod svg;
@@ -20,10 +21,13 @@ mod view_certificate;
 mod view_charts;
 mod view_diagnosis;
 mod view_dimensions;
+mod view_equation;
+pub mod words;
 mod write;
 
 pub use charts::Chart;
 pub use counts::Counts;
+pub use words::Language;
 
 use crate::check::verdict::DocumentReport;
 use std::path::{Path, PathBuf};
@@ -50,18 +54,21 @@ pub struct Run {
 pub struct Options {
     /// Whether times are printed. Without them the same seed gives the same bytes.
     pub times: bool,
+    /// The language of the pages and of the summary for the terminal.
+    pub language: Language,
 }
 
+/// With times, in English: what the user's language is, the command line decides.
 impl Default for Options {
     fn default() -> Self {
-        Options { times: true }
+        Options { times: true, language: Language::English }
     }
 }
 
-/// The files that [`write`] wrote.
+/// The files that were written.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Written {
-    /// The HTML page.
+    /// The HTML page at which to begin.
     pub html: PathBuf,
     /// The JSON file.
     pub json: PathBuf,
@@ -102,15 +109,16 @@ pub enum ReportError {
     Json(#[from] serde_json::Error),
 }
 
-/// Writes `report.html` and `report.json` into the directory `out`, which is created if need be.
+/// Writes the pages and `report.json` into the directory `out`, which is created if need be. `report.html` is where to
+/// begin.
 ///
 /// Whenever the process ends, each of them is whole: the new one or the one before.
 ///
 /// # Errors
 /// [`ReportError`]
 pub fn write(run: &Run, out: &Path, options: Options) -> Result<Written, ReportError> {
-    let (html, json) = (html::render(run, options)?, json::render(run, options)?);
-    write::pair(out, "report", &html, &json)
+    let (pages, json) = (html::pages(run, options)?, json::render(run, options)?);
+    write::report(out, &pages, &json)
 }
 
 #[cfg(test)]

@@ -1,19 +1,61 @@
 use super::*;
+use crate::check::verdict::DocumentReport;
 
-const UNTIMED: Options = Options { times: false };
+const UNTIMED: Options = Options { times: false, language: Language::English };
 
 /// A new version of Kenzan is no new report.
 fn unversioned(report: &str) -> String {
     report.replace(env!("CARGO_PKG_VERSION"), "[version]")
 }
 
+/// Some pages without the style sheet and the script, which have their own files.
+fn bare(pages: &[html::Page]) -> String {
+    let cut = |html: &str, element: &str| {
+        let Some((before, rest)) = html.split_once(&format!("<{element}>")) else { return html.to_owned() };
+        let (_, after) = rest.split_once(&format!("</{element}>")).unwrap();
+        format!("{before}{after}")
+    };
+    let hashes = |html: String| {
+        let mut parts = html.split("'sha256-");
+        let first = parts.next().unwrap_or_default().to_owned();
+        parts.fold(first, |text, part| text + "'[hash]" + part.split_once('\'').unwrap().1)
+    };
+    pages.iter().map(|p| format!("{}\n{}\n", p.file, hashes(cut(&cut(&p.html, "style"), "script")))).collect()
+}
+
+fn pages(run: &Run, language: Language) -> Vec<html::Page> {
+    html::pages(run, Options { language, ..UNTIMED }).unwrap()
+}
+
 #[test]
 fn html_snapshot() {
-    let page = html::render(&fixture::run(), UNTIMED).unwrap();
-    // The style sheet has its own file.
-    let (before, rest) = page.split_once("<style>").unwrap();
-    let (_, after) = rest.split_once("</style>").unwrap();
-    insta::assert_snapshot!(unversioned(&format!("{before}{after}")));
+    insta::assert_snapshot!(unversioned(&bare(&pages(&fixture::run(), Language::English))));
+}
+
+#[test]
+fn japanese_html_snapshot() {
+    insta::assert_snapshot!(unversioned(&bare(&pages(&fixture::run(), Language::Japanese))));
+}
+
+#[test]
+fn japanese_terminal_snapshot() {
+    let options = Options { language: Language::Japanese, ..UNTIMED };
+    insta::assert_snapshot!(terminal::render(&fixture::run(), false, options));
+}
+
+/// The names of the pages, the entry last; with one document the entry is its page.
+#[test]
+fn every_document_has_a_page() {
+    let mut run = fixture::run();
+    let names = |pages: &[html::Page]| pages.iter().map(|p| p.file.clone()).collect::<Vec<_>>();
+    let several = pages(&run, Language::English);
+    assert_eq!(names(&several), ["gyroscope.html", "empty.html", "report.html"]);
+    let entry = &several.last().unwrap().html;
+    assert!(entry.contains("href=\"gyroscope.html\"") && entry.contains("href=\"empty.html\""));
+    run.documents.truncate(1);
+    let alone = pages(&run, Language::English);
+    assert_eq!(names(&alone), ["gyroscope.html", "report.html"]);
+    assert_eq!(alone.first().unwrap().html, alone.last().unwrap().html);
 }
 
 #[test]
@@ -75,16 +117,16 @@ fn without_times_the_same_run_gives_the_same_bytes() {
     let (run, mut slower) = (fixture::run(), fixture::run());
     slower.micros *= 7;
     slower.documents[0].equations.iter_mut().for_each(|e| e.micros *= 3);
-    assert_eq!(html::render(&run, UNTIMED).unwrap(), html::render(&slower, UNTIMED).unwrap());
+    assert_eq!(html::pages(&run, UNTIMED).unwrap(), html::pages(&slower, UNTIMED).unwrap());
     assert_eq!(json::render(&run, UNTIMED).unwrap(), json::render(&slower, UNTIMED).unwrap());
     assert_eq!(terminal::render(&run, true, UNTIMED), terminal::render(&slower, true, UNTIMED));
-    let timed = html::render(&run, Options::default()).unwrap();
-    assert!(timed.contains("118 µs") && timed.contains("31.4 ms"));
-    assert_ne!(timed, html::render(&slower, Options::default()).unwrap());
+    let timed = html::pages(&run, Options::default()).unwrap();
+    assert!(timed[0].html.contains("118 µs") && timed.last().unwrap().html.contains("31.4 ms"));
+    assert_ne!(timed, html::pages(&slower, Options::default()).unwrap());
     assert!(json::render(&run, Options::default()).unwrap().contains("\"micros\": 118"));
 }
 
-/// Every anchor that is linked to exists, and none exists twice.
+/// Every anchor and page that is linked to exists, and no anchor exists twice on a page.
 #[test]
 fn anchors_lead_somewhere() {
     let mut run = fixture::run();
@@ -92,26 +134,41 @@ fn anchors_lead_somewhere() {
     run.documents.push(run.documents[0].clone());
     let twin = run.documents[0].equations[1].clone();
     run.documents[0].equations.push(twin);
-    let page = html::render(&run, UNTIMED).unwrap();
-    let values = |key: &str| -> Vec<String> {
-        page.split(key).skip(1).filter_map(|rest| Some(rest.split_once('"')?.0.to_owned())).collect()
-    };
-    let ids = values(" id=\"");
-    let unique: std::collections::HashSet<_> = ids.iter().collect();
-    assert_eq!(ids.len(), unique.len());
-    let targets = values("href=\"#");
-    assert!(targets.len() > 40);
-    for target in targets.iter().chain(&values("aria-labelledby=\"")) {
-        assert!(unique.contains(target), "nothing has the anchor {target}");
+    // Names that meet those of the page's own parts.
+    run.documents[1] = DocumentReport { name: "summary".into(), ..run.documents[0].clone() };
+    run.documents[1].equations[0].label = "title".into();
+    let pages = pages(&run, Language::English);
+    let files: Vec<&str> = pages.iter().map(|p| p.file.as_str()).collect();
+    for html::Page { file, html } in &pages {
+        let values = |key: &str| -> Vec<String> {
+            html.split(key).skip(1).filter_map(|rest| Some(rest.split_once('"')?.0.to_owned())).collect()
+        };
+        let ids = values(" id=\"");
+        let unique: std::collections::HashSet<_> = ids.iter().collect();
+        assert_eq!(ids.len(), unique.len(), "{file}");
+        let links = values("href=\"");
+        assert!(links.len() > if *file == "report.html" { 3 } else { 35 }, "{file}: {}", links.len());
+        let own = links.iter().filter_map(|link| link.strip_prefix('#').map(str::to_owned));
+        let named = ["aria-labelledby=\"", "aria-describedby=\"", " for=\""].into_iter().flat_map(values);
+        for target in own.chain(named) {
+            assert!(unique.contains(&target), "{file}: nothing has the anchor {target}");
+        }
+        for link in links.iter().filter(|link| !link.starts_with('#')) {
+            let page = link.split('#').next().unwrap();
+            assert!(files.contains(&page), "{file}: no page {link}");
+        }
     }
 }
 
 #[test]
-fn the_page_needs_nothing_else() {
-    let page = html::render(&fixture::run(), UNTIMED).unwrap();
-    for outside in ["<script", "<link", "<img", "@import", "url(", "http:"] {
-        assert!(!page.contains(outside), "{outside}");
+fn the_pages_need_nothing_else() {
+    let pages = pages(&fixture::run(), Language::English);
+    for html::Page { file, html } in &pages {
+        for outside in ["<script ", "<link", "<img", "@import", "url(", "http:", " style=", "unsafe-inline"] {
+            assert!(!html.contains(outside), "{file}: {outside}");
+        }
     }
+    let page = &pages[0].html;
     assert!(page.contains("gyroscope-56") && page.contains("class=\"changed\""));
     assert!(page.contains("回転 &lt;rotation&gt;"));
 }
@@ -148,11 +205,16 @@ fn hostile_notes_stay_text() {
             correction.latex = hostile.into();
         }
     }
-    let page = html::render(&run, UNTIMED).unwrap();
-    assert!(!page.contains("<script") && !page.contains("49"));
-    assert_eq!(page.matches("</style>").count(), 1);
-    let quoted = |tag: &str| tag.matches('"').count().is_multiple_of(2);
-    assert!(page.split('<').skip(1).all(|rest| rest.split_once('>').is_some_and(|(tag, _)| quoted(tag))));
+    for language in [Language::English, Language::Japanese] {
+        let pages = pages(&run, language);
+        for page in &pages {
+            assert!(page.html.matches("<script").count() <= 1 && page.html.matches("</style>").count() == 1);
+        }
+        let text = bare(&pages);
+        assert!(!text.contains("<script") && !text.contains("49"));
+        let quoted = |tag: &str| tag.matches('"').count().is_multiple_of(2);
+        assert!(text.split('<').skip(1).all(|rest| rest.split_once('>').is_some_and(|(tag, _)| quoted(tag))));
+    }
 }
 
 #[test]
@@ -166,7 +228,10 @@ fn reports_replace_older_ones_and_leave_nothing_beside() {
         assert_eq!(json["seed"], seed);
         assert!(std::fs::read_to_string(written.html).unwrap().contains(&format!("seed {seed}")));
     }
-    assert_eq!(std::fs::read_dir(&out).unwrap().count(), 2);
+    let mut names: Vec<_> =
+        std::fs::read_dir(&out).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap()).collect();
+    names.sort();
+    assert_eq!(names, ["empty.html", "gyroscope.html", "report.html", "report.json"]);
     std::fs::remove_dir_all(out.parent().unwrap()).unwrap();
 }
 

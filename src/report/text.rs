@@ -1,6 +1,6 @@
 //! Words and numbers that every report shares.
 
-use crate::check::verdict::{Judgement, LostBits, Strength, Verdict};
+use crate::check::verdict::{Judgement, Verdict};
 
 /// A verdict's name, which is its name in `report.json` and its CSS class, too.
 pub(super) fn word(verdict: Verdict) -> &'static str {
@@ -26,30 +26,6 @@ pub(super) fn symbol(verdict: Verdict) -> &'static str {
         Verdict::Undecided => "?",
         Verdict::Unreadable => "!",
     }
-}
-
-/// A strength's name.
-pub(super) fn strength(strength: Strength) -> &'static str {
-    match strength {
-        Strength::Exact => "exact",
-        Strength::Numeric => "numeric",
-        Strength::Certified => "certified",
-        Strength::Asymptotic => "asymptotic",
-        Strength::Shape => "shape",
-    }
-}
-
-/// The bound on the chance of a false exact verdict: `false with a chance below 2⁻¹⁰²`.
-pub(super) fn exactness(log2_error: i32) -> String {
-    format!("false with a chance below 2{}", superscript(log2_error))
-}
-
-/// Of what holds because a premise says the same.
-pub(super) const RESTATED: &str = "as a premise says";
-
-/// What doubles lose: `doubles lose 0.9 bits, at worst 3.1`.
-pub(super) fn lost_bits(lost: LostBits) -> String {
-    format!("doubles lose {} bits, at worst {}", lost.mean, lost.worst)
 }
 
 /// Why an equation has its verdict: its own reason, or else that of the first link that has the equation's verdict.

@@ -1,6 +1,7 @@
 //! The diagnosis for the templates: sensitivity, survivors, suggestions.
 
 use super::math::{self, Renderer};
+use super::words::{Words, count, with};
 use crate::check::verdict::{Judgement, Sensitivity};
 use crate::latex::diff::mark_by;
 use serde::Serialize;
@@ -25,7 +26,7 @@ pub(super) struct Diagnosis {
     suggestions: Vec<SuggestionView>,
 }
 
-pub(super) fn view(j: &Judgement, renderer: &Renderer) -> Diagnosis {
+pub(super) fn view(j: &Judgement, renderer: &Renderer, w: &Words) -> Diagnosis {
     let words = |edit: &String| renderer.prose(&edit.replace('`', "$"));
     let survivors = j.sensitivity.iter().flat_map(|s| &s.survivors);
     let suggestion = |s: &crate::check::verdict::Suggestion| {
@@ -36,26 +37,20 @@ pub(super) fn view(j: &Judgement, renderer: &Renderer) -> Diagnosis {
         SuggestionView { printed_html, math_html, edit_html: words(&s.edit), latex: s.latex.clone() }
     };
     Diagnosis {
-        sensitivity: j.sensitivity.as_ref().map(sentence),
+        sensitivity: j.sensitivity.as_ref().map(|s| sentence(s, w)),
         survivors_html: survivors.map(words).collect(),
         suggestions: j.suggestions.iter().map(suggestion).collect(),
     }
 }
 
 /// `41 of 44 mutants fail, 2 say the same, 1 passes`
-pub(super) fn sentence(s: &Sensitivity) -> String {
-    let mut text = format!("{} of {} mutants fail", s.killed, s.total);
-    if s.equivalent > 0 {
-        text.push_str(&format!(", {} say the same", s.equivalent));
-    }
-    if s.weaker > 0 {
-        text.push_str(&format!(", {} say less", s.weaker));
-    }
-    if s.undecided > 0 {
-        text.push_str(&format!(", {} cannot be evaluated", s.undecided));
-    }
-    if !s.survivors.is_empty() {
-        text.push_str(&format!(", {} pass", s.survivors.len()));
-    }
-    text
+fn sentence(s: &Sensitivity, w: &Words) -> String {
+    let rest = [
+        (w.mutants_same, s.equivalent),
+        (w.mutants_less, s.weaker),
+        (w.mutants_undecided, s.undecided),
+        (w.mutants_pass, s.survivors.len()),
+    ];
+    let rest = rest.into_iter().filter(|(_, n)| *n > 0).map(|(text, n)| count(text, n));
+    with(w.mutants_fail, &[("n", &s.killed), ("m", &s.total)]) + &rest.collect::<String>()
 }

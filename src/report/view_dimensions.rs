@@ -1,6 +1,7 @@
 //! What the templates are given of dimensions.
 
 use super::math::Renderer;
+use super::words::Words;
 use crate::check::verdict::{DimensionFinding, DimensionStatus, DocumentReport, Judgement};
 use serde::Serialize;
 
@@ -41,10 +42,10 @@ struct Inferred {
 }
 
 /// The view of an equation's dimensions.
-pub(super) fn view(j: &Judgement, renderer: &Renderer) -> View {
+pub(super) fn view(j: &Judgement, renderer: &Renderer, words: &'static Words) -> View {
     let fact = match j.dimension {
-        DimensionStatus::Ok => Some("dimensions ok"),
-        DimensionStatus::Mismatch => Some("dimensions differ"),
+        DimensionStatus::Ok => Some(words.dimensions_ok),
+        DimensionStatus::Mismatch => Some(words.dimensions_differ),
         DimensionStatus::Unchecked => None,
     };
     let finding = |f: &DimensionFinding| Finding {

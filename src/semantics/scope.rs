@@ -6,6 +6,7 @@ use std::sync::Arc;
 use crate::document::{Arguments, BasisDeclaration, Declarations, Problem, Spanned, SymbolDeclaration};
 use crate::latex;
 use crate::latex::ast::{Kind, Node};
+use crate::trace;
 
 use super::elaborate::MOST_ALIASES;
 use super::name::{nearest, spelling, spelling_with};
@@ -134,6 +135,7 @@ pub struct Scope {
 impl Scope {
     /// All entries, in the order of their spelling.
     pub fn entries(&self) -> impl Iterator<Item = &Entry> {
+        trace::all_names();
         let mut entries: Vec<&Entry> = self.entries.values().map(Arc::as_ref).collect();
         entries.sort_by(|a, b| a.pattern.cmp(&b.pattern));
         entries.into_iter()
@@ -141,6 +143,7 @@ impl Scope {
 
     /// The entry of a canonical spelling.
     pub fn get(&self, pattern: &str) -> Option<&Entry> {
+        trace::name(pattern);
         self.entries.get(pattern).map(Arc::as_ref)
     }
 
@@ -174,6 +177,7 @@ impl Scope {
 
     /// The declared name nearest to one that is not declared.
     pub fn suggestion(&self, name: &str) -> Option<&str> {
+        trace::all_names();
         let mut names: Vec<&str> = self.entries.keys().map(String::as_str).collect();
         names.sort_unstable();
         nearest(name, names.into_iter())

@@ -35,7 +35,7 @@ fn the_search_finds_a_planted_cancellation() {
 
 #[test]
 fn the_same_seed_gives_the_same_bytes() {
-    let options = Options { times: false };
+    let options = Options { times: false, ..Options::default() };
     let threads = |n: usize| {
         let pool = rayon::ThreadPoolBuilder::new().num_threads(n).build().unwrap();
         pool.install(|| (html(&found(), options).unwrap(), json(&found(), options).unwrap()))

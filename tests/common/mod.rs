@@ -1,6 +1,8 @@
 //! What tests of single equations share.
 
-#![allow(clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+#![allow(dead_code, clippy::unwrap_used, clippy::expect_used, clippy::panic)]
+
+pub mod edits;
 
 use std::path::Path;
 

@@ -185,7 +185,7 @@ class Reader:
             return self.big(token)
         if token in DECORATIONS:
             token += self.raw_group()
-        elif not re.fullmatch(r"[a-zA-Z]|\\[a-zA-Z]+", token):
+        elif token in self.ENDS or not re.fullmatch(r"[a-zA-Z]|\\[a-zA-Z]+", token):
             raise Unread(f"{token} is not known here")
         if token == "e" and self.peek() == "^":
             return math.e

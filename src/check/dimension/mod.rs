@@ -12,18 +12,19 @@ mod affine;
 mod finding;
 mod mend;
 mod reading;
+mod readings;
 
 #[cfg(test)]
 mod tests;
 
-use std::collections::HashSet;
-
-use crate::semantics::{self, Clause, Scope};
+use crate::semantics;
 
 use self::affine::{Affine, Outcome, System};
 use self::mend::Uses;
 use self::reading::{JointReading, LinkReading, Quantities};
-use super::book::{Book, Entry, Formula, Version};
+pub use self::readings::Readings;
+use super::book::{Book, Version};
+use super::fingerprint::Fingerprints;
 use super::verdict::{DimensionFinding, DimensionStatus, InferredDimension, Judgement};
 
 /// The dimensions of a whole document.
@@ -41,7 +42,7 @@ pub struct Survey<'b> {
 const MOST_STATED: usize = 600;
 
 /// What an equation says of dimensions.
-#[derive(Default)]
+#[derive(Clone, Debug, Default)]
 struct Equation {
     /// Its links as printed; `None` for one that is not understood.
     printed: Vec<Option<LinkReading>>,
@@ -77,10 +78,13 @@ impl Equation {
 impl<'b> Survey<'b> {
     /// Reads the dimensions of every equation and premise of a book.
     pub fn new(book: &'b Book) -> Self {
-        let mut quantities = Quantities::default();
-        let mut seen = HashSet::new();
-        let equations: Vec<Equation> =
-            (0..book.entries.len()).map(|k| equation(book, k, &mut seen, &mut quantities)).collect();
+        Survey::with(&Fingerprints::new(book), &mut Readings::default())
+    }
+
+    /// As [`Survey::new`], without reading again what is as it was.
+    pub fn with(prints: &Fingerprints<'b>, readings: &mut Readings) -> Self {
+        let book = prints.book;
+        let (equations, quantities) = readings.equations(prints);
         let too_many = equations.iter().map(|e| e.premises.len() + e.stated().count()).sum::<usize>() > MOST_STATED;
         Survey { book, quantities, equations, uses: Uses::count(book), too_many }
     }
@@ -241,29 +245,4 @@ fn state(link: &LinkReading, system: &mut System, origin: usize) -> bool {
     let mut count = Comparison::default();
     link.joints.iter().all(|joint| compare(joint, system, origin, &mut count).is_none())
         && link.implied.iter().all(|(a, b)| system.equate(a, b, origin) != Outcome::Contradicts)
-}
-
-fn equation(book: &Book, index: usize, seen: &mut HashSet<usize>, quantities: &mut Quantities) -> Equation {
-    let entry = &book.entries[index];
-    if entry.scope.natural_units {
-        return Equation::default();
-    }
-    let mapped = entry.annotation().is_some_and(|a| a.maps.is_some());
-    let clauses = |version| book.statement(index, version).map(|s| s.clauses).unwrap_or_default();
-    let mut read = |clause: &Clause| reading::read(&entry.scope, clause, mapped, quantities);
-    let printed: Vec<Option<LinkReading>> = clauses(Version::Printed).iter().map(&mut read).collect();
-    let correction = entry.correction.as_ref().map(|_| clauses(Version::Corrected));
-    let corrected = correction.map(|clauses| clauses.iter().map(&mut read).collect());
-    let premises = premises(entry, seen, quantities);
-    Equation { printed, corrected, premises: premises.into_iter().filter(LinkReading::has_unknowns).collect() }
-}
-
-/// The premises that an equation's annotation and its section state, each once.
-fn premises(entry: &Entry, seen: &mut HashSet<usize>, quantities: &mut Quantities) -> Vec<LinkReading> {
-    let scope: &Scope = &entry.scope;
-    let texts = entry.scope.assume.iter().chain(entry.wheres(None)).filter(|t| seen.insert(t.span.start));
-    let trees = texts.filter_map(|text| Formula::new(&text.value).tree.ok());
-    let statements = trees.filter_map(|tree| semantics::statement(&tree, None).ok());
-    let clauses: Vec<Clause> = statements.flat_map(|s| s.clauses).collect();
-    clauses.iter().filter_map(|clause| reading::read(scope, clause, false, quantities)).collect()
 }

@@ -15,7 +15,7 @@ use crate::semantics::{
 use super::affine::Affine;
 
 /// The quantities without a declared unit, by number.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 pub struct Quantities {
     numbers: HashMap<Quantity, usize>,
     /// The quantities in the order in which they were met.
@@ -23,7 +23,8 @@ pub struct Quantities {
 }
 
 impl Quantities {
-    fn number(&mut self, quantity: &Quantity) -> usize {
+    /// The number of a quantity.
+    pub fn number(&mut self, quantity: &Quantity) -> usize {
         *self.numbers.entry(quantity.clone()).or_insert_with(|| {
             self.all.push(quantity.clone());
             self.all.len() - 1

@@ -181,6 +181,7 @@ pub fn html(speed: &Speed) -> Result<String, ReportError> {
     tera.add_raw_templates(TEMPLATES)?;
     let mut context = Context::from_serialize(&view::page(speed))?;
     context.insert("style", STYLE);
+    context.insert("w", super::Language::English.words());
     Ok(tera.render("speed.html", &context)?)
 }
 
