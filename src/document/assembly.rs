@@ -11,7 +11,7 @@ use super::scan::{Found, directive};
 use super::sidecar::Sidecar;
 use super::tex::number::{Counted, Counter};
 use super::toml::{self, Reader};
-use super::{Document, Equation, InlineFormula, Item, Section};
+use super::{Document, Equation, Item, Section};
 use crate::latex::expand::{Definitions, Macros};
 use std::collections::HashMap;
 use std::path::Path;
@@ -79,7 +79,8 @@ pub(super) struct Assembly<'a> {
     pub(super) items: Vec<Item>,
     pub(super) problems: Vec<Problem>,
     /// The inline formulas, without their delimiters.
-    formulas: Vec<InlineFormula>,
+    formulas: Vec<Span>,
+    expanded: Vec<String>,
     /// All labels with the places where they are printed or given.
     pub(super) labels: HashMap<String, Span>,
     /// The last label printed.
@@ -113,6 +114,7 @@ impl<'a> Assembly<'a> {
             items: Vec::new(),
             problems,
             formulas: Vec::new(),
+            expanded: Vec::new(),
             labels: HashMap::new(),
             previous: None,
             unnumbered: 0,
@@ -153,6 +155,7 @@ impl<'a> Assembly<'a> {
             problems: self.problems,
             files: self.files,
             formulas: self.formulas,
+            expanded: self.expanded,
         }
     }
 
@@ -176,7 +179,9 @@ impl<'a> Assembly<'a> {
             }
             Part::Formula(span, content) => {
                 let formula = trimmed(self.source, content.clone());
-                self.formulas.push(InlineFormula { span: formula, macros: self.macros.clone() });
+                let latex = self.clean.get(formula.clone()).unwrap_or_default();
+                self.expanded.push(self.macros.expand(latex).map_or_else(|_| latex.to_owned(), |found| found.text));
+                self.formulas.push(formula);
                 self.formula = Some((span, content));
             }
             Part::Annotation(span, text) => self.annotation(span.clone(), &text, span.start),

@@ -57,19 +57,12 @@ pub struct Document {
     pub items: Vec<Item>,
     /// What is wrong with it, in that order, too.
     pub problems: Vec<Problem>,
-    /// The inline formulas, without their delimiters, in the order in which they are read.
-    pub formulas: Vec<InlineFormula>,
     /// Its files: that at [`path`](Self::path) first, then those it includes, then its sidecar.
     pub files: Files,
-}
-
-/// An inline formula.
-#[derive(Clone, Debug, PartialEq)]
-pub struct InlineFormula {
-    /// The bytes of its LaTeX, without delimiters.
-    pub span: Span,
-    /// The macros in force where it stands.
-    pub macros: Macros,
+    /// The inline formulas, without their delimiters, in the order in which they are read.
+    pub formulas: Vec<Span>,
+    /// Their LaTeX, comments left out and macros expanded.
+    expanded: Vec<String>,
 }
 
 /// A part of a document.
@@ -148,6 +141,13 @@ impl Document {
     /// The line and the column, in characters, of a byte of the notes in the file that holds it, both counted from 1.
     pub fn line_column(&self, offset: usize) -> (usize, usize) {
         self.files.line_column(offset)
+    }
+
+    /// The LaTeX of an inline formula, comments left out and macros expanded.
+    pub fn formula(&self, span: &Span) -> &str {
+        let index = self.formulas.binary_search_by_key(&span.start, |formula| formula.start);
+        let expanded = index.ok().and_then(|index| self.expanded.get(index));
+        expanded.map_or_else(|| self.source.get(span.clone()).unwrap_or_default(), String::as_str)
     }
 
     /// The file that holds a byte of the notes.
