@@ -195,7 +195,7 @@ mod tests {
     fn long_formulas_are_known() {
         let display = |latex: &str| Renderer::new().display(latex);
         assert_eq!(length_class(&display(r"a = \frac{b}{c}")), "");
-        assert_eq!(length_class(&display(&"a + b = ".repeat(12))), " long");
+        assert_eq!(length_class(&display(&"a + b = ".repeat(16))), " long");
         // Rows count each for itself.
         assert_eq!(
             length_class(&display(&format!(r"\begin{{aligned}}{}\end{{aligned}}", r"a &= b \\".repeat(40)))),
