@@ -27,13 +27,13 @@ fn notes() -> Vec<PathBuf> {
 /// What a reader of the manual sees: the command, what it prints, and the exit code.
 fn session(note: &Path) -> String {
     let name = note.file_name().unwrap().to_str().unwrap();
-    let out = tempfile::tempdir().unwrap();
+    let out = Path::new(env!("CARGO_TARGET_TMPDIR")).join("examples").join(name);
     let run = Command::new(env!("CARGO_BIN_EXE_kenzan"))
         .current_dir(folder())
         .env("NO_COLOR", "1")
         .env("LC_ALL", "C")
         .args(["verify", name, "--no-times", "--jobs", "1", "--out"])
-        .arg(out.path())
+        .arg(out)
         .output()
         .unwrap();
     let printed = String::from_utf8(run.stdout).unwrap();

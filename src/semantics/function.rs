@@ -102,6 +102,13 @@ impl Elaborator<'_> {
             let det = value::determinant(&mut self.world.graph, m);
             return Ok(Typed::new(Value::Scalar(det), format!("det({})", argument.text)));
         }
+        if let (Value::Matrix(m), "tr" | "Tr" | "trace") = (&argument.value, name)
+            && m.rows == m.cols
+        {
+            let diagonal: Vec<_> = (0..m.rows).map(|k| m.at(k, k)).collect();
+            let trace = value::sum(&mut self.world.graph, &diagonal);
+            return Ok(Typed::new(Value::Scalar(trace), format!("tr({})", argument.text)));
+        }
         if let (Value::Tuple(items), "max" | "min") = (&argument.value, name) {
             return self.extreme(items, name == "max", span);
         }
