@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 use crate::check::verdict::{Inferred, Judgement, LinkJudgement, Strength, Verdict};
 use crate::check::{self, Book, Options};
 use crate::document::{Document, Spanned};
-use crate::semantics::{Clause, spelling};
+use crate::semantics::{Clause, Side, spelling};
 
 use super::candidates::{Candidate, Spoken, candidates};
 use super::desk::{Basis, Desk};
@@ -58,7 +58,7 @@ impl Ground {
         for link in failing {
             desk.link = link;
             if desk.search(&self.bases(&desk, &clauses)).is_none() {
-                if !clauses[link].continued {
+                if !is_chained(&clauses, link) {
                     desk.taken.push(link);
                 }
                 open.push(link);
@@ -99,7 +99,7 @@ impl Ground {
 
     /// Whether the equation solves one before it.
     fn solution(&self, desk: &mut Desk, clauses: &[Clause], open: &[usize]) -> bool {
-        let Some(link) = open.iter().copied().find(|k| !clauses[*k].continued) else { return false };
+        let Some(link) = open.iter().copied().find(|k| !is_chained(clauses, *k)) else { return false };
         desk.link = link;
         let unknown = spelling(&clauses[link].lhs);
         let Some((nearby, target)) = self.nearby(desk, clauses) else { return false };
@@ -149,6 +149,12 @@ impl Ground {
     }
 }
 
+/// Whether a link goes on where the one before it ends, as b = c in a = b = c.
+fn is_chained(clauses: &[Clause], link: usize) -> bool {
+    let before = link.checked_sub(1).and_then(|k| clauses.get(k));
+    before.is_some_and(|before| before.rhs == Side::Node(clauses[link].lhs.clone())) || clauses[link].continued
+}
+
 /// Whether a link fails at states, and not by its shape.
 fn fails(link: &LinkJudgement) -> bool {
     link.verdict == Verdict::Fails && link.strength != Some(Strength::Shape)
@@ -176,7 +182,7 @@ fn misshapen(mut judgement: Judgement) -> Judgement {
 /// The judgement with the premises that were found. What follows from nothing is new; but a link that continues another
 /// one was to follow.
 fn conclude(desk: &mut Desk, clauses: &[Clause], open: &[usize]) -> Judgement {
-    let new = !open.is_empty() && open.iter().all(|k| !clauses[*k].continued);
+    let new = !open.is_empty() && open.iter().all(|k| !is_chained(clauses, *k));
     desk.say_kind(new.then_some("law"));
     let mut judgement = check::judge(desk.book, desk.index, desk.options);
     let links = desk.book.entries[desk.index].annotation().into_iter().flat_map(|a| &a.link);
