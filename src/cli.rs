@@ -1,5 +1,6 @@
 //! The command line: arguments, progress, exit codes.
 
+mod init;
 mod scene;
 
 use std::collections::HashSet;
@@ -72,6 +73,10 @@ enum Command {
         #[arg(long, value_enum)]
         lang: Option<report::Language>,
     },
+    /// Write a scaffold of annotations for notes that have none.
+    Init(init::Init),
+    /// List the symbols of notes, and what is odd about them.
+    Symbols(init::Symbols),
     /// Search where the formulas of the notes lose their digits, and forms that do not.
     Stability(stability::Arguments),
     /// Measure what accuracy costs in each scene, model by model.
@@ -177,6 +182,8 @@ pub fn main() -> ExitCode {
             };
             in_pool(sampling.jobs, || verify_command(&request, &out, printed))
         }
+        Command::Init(arguments) => in_pool(None, || init::init(&arguments).map(|()| AS_EXPECTED)),
+        Command::Symbols(arguments) => in_pool(None, || init::symbols(&arguments).map(|()| AS_EXPECTED)),
         Command::Stability(arguments) => in_pool(arguments.jobs, || stability::run(&arguments).map(|()| AS_EXPECTED)),
         Command::Speed(arguments) => in_pool(None, || speed::run(&arguments).map(|()| AS_EXPECTED)),
         Command::Explain { path, label, sampling } => {

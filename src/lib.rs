@@ -9,7 +9,7 @@
 //! | floor | modules |
 //! |---|---|
 //! | 6 | `cli` |
-//! | 5 | `verify`, `incremental`, `explain`, `speed`, `stability` |
+//! | 5 | `verify`, `incremental`, `init`, `symbols`, `explain`, `speed`, `stability` |
 //! | 4 | `report`, `diagnose`, `infer` |
 //! | 3 | `semantics`, `check`, `scene` |
 //! | 2 | `expr`, `integrator` |
@@ -24,6 +24,7 @@ pub mod explain;
 pub mod expr;
 pub mod incremental;
 pub mod infer;
+pub mod init;
 pub mod integrator;
 pub mod latex;
 pub mod number;
@@ -32,6 +33,7 @@ pub mod scene;
 pub mod semantics;
 pub mod speed;
 pub mod stability;
+pub mod symbols;
 #[cfg(test)]
 mod testing;
 pub mod trace;

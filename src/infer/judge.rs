@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::check::verdict::{Inferred, Judgement, LinkJudgement, Strength, Verdict};
+use crate::check::verdict::{Inferred, InferredLink, Judgement, LinkJudgement, Strength, Verdict};
 use crate::check::{self, Book, Options};
 use crate::document::{Document, Spanned};
 use crate::semantics::{Clause, Side, spelling};
@@ -99,7 +99,8 @@ impl Ground {
 
     /// Whether the equation solves one before it.
     fn solution(&self, desk: &mut Desk, clauses: &[Clause], open: &[usize]) -> bool {
-        let Some(link) = open.iter().copied().find(|k| !is_chained(clauses, *k)) else { return false };
+        // Put into what it solves, an equation is not judged by itself: what else it says would not be.
+        let (&[link], [_]) = (open, clauses) else { return false };
         desk.link = link;
         let unknown = spelling(&clauses[link].lhs);
         let Some((nearby, target)) = self.nearby(desk, clauses) else { return false };
@@ -185,9 +186,13 @@ fn conclude(desk: &mut Desk, clauses: &[Clause], open: &[usize]) -> Judgement {
     let new = !open.is_empty() && open.iter().all(|k| !is_chained(clauses, *k));
     desk.say_kind(new.then_some("law"));
     let mut judgement = check::judge(desk.book, desk.index, desk.options);
-    let links = desk.book.entries[desk.index].annotation().into_iter().flat_map(|a| &a.link);
+    let annotation = desk.book.entries[desk.index].equation.annotation.get_or_insert_default();
     let values = |texts: &[Spanned<String>]| texts.iter().map(|t| t.value.clone()).collect::<Vec<String>>();
-    let links = links.map(|l| (l.number, values(&l.given), values(&l.where_))).collect();
+    let solves = values(&annotation.solves);
+    let whole = (0, values(&annotation.given), values(&annotation.where_));
+    let links = annotation.link.iter().map(|l| (l.number, values(&l.given), values(&l.where_)));
+    let links = std::iter::once(whole).filter(|_| !solves.is_empty()).chain(links);
+    let links = links.map(|(number, given, formulas)| InferredLink { number, given, formulas }).collect();
     let once = |mut names: Vec<String>| {
         let mut seen = BTreeSet::new();
         names.retain(|n| seen.insert(n.clone()));
@@ -196,7 +201,7 @@ fn conclude(desk: &mut Desk, clauses: &[Clause], open: &[usize]) -> Judgement {
     judgement.given = once(judgement.given);
     judgement.assumptions = once(judgement.assumptions);
     let (given, formulas) = (judgement.given.clone(), judgement.assumptions.clone());
-    judgement.inferred = Some(Inferred { given, formulas, new: !open.is_empty(), needs: Vec::new(), links });
+    judgement.inferred = Some(Inferred { given, formulas, solves, new: !open.is_empty(), needs: Vec::new(), links });
     for k in open {
         let Some(link) = judgement.links.get_mut(*k) else { continue };
         if link.verdict == Verdict::Definition {
