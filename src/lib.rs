@@ -8,8 +8,8 @@
 //!
 //! | floor | modules |
 //! |---|---|
-//! | 6 | `cli` |
-//! | 5 | `verify`, `incremental`, `explain`, `speed`, `stability` |
+//! | 6 | `cli`, `watch`, `lsp` |
+//! | 5 | `verify`, `incremental`, `files`, `config`, `explain`, `speed`, `stability` |
 //! | 4 | `report`, `diagnose`, `infer` |
 //! | 3 | `semantics`, `check`, `scene` |
 //! | 2 | `expr`, `integrator` |
@@ -18,14 +18,17 @@
 pub mod breakdown;
 pub mod check;
 pub mod cli;
+pub mod config;
 pub mod diagnose;
 pub mod document;
 pub mod explain;
 pub mod expr;
+pub mod files;
 pub mod incremental;
 pub mod infer;
 pub mod integrator;
 pub mod latex;
+pub mod lsp;
 pub mod number;
 pub mod report;
 pub mod scene;
@@ -36,3 +39,4 @@ pub mod stability;
 mod testing;
 pub mod trace;
 pub mod verify;
+pub mod watch;

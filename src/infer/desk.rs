@@ -73,7 +73,9 @@ impl Desk<'_> {
         for candidate in basis.premises.iter().map(|k| &self.all[*k]) {
             match &candidate.source {
                 Origin::Display(_, label) => premises.given.push(text(label, candidate.span.start)),
-                Origin::Part(_, _, latex) | Origin::Inline(latex) => premises.where_.push(text(latex, candidate.span.start)),
+                Origin::Part(_, _, latex) | Origin::Inline(latex) => {
+                    premises.where_.push(text(latex, candidate.span.start))
+                }
             }
         }
         annotation.link.retain(|l| l.number != self.link + 1);

@@ -12,6 +12,7 @@
 mod candidates;
 mod desk;
 mod evidence;
+mod fingerprint;
 mod formulas;
 mod judge;
 mod premises;

@@ -8,6 +8,9 @@ use serde_json::Value;
 /// The version of the contract. It rises when a field changes its meaning or goes; new fields do not raise it.
 pub const SCHEMA: u32 = 1;
 
+/// The contract as a JSON schema (draft 2020-12).
+pub const SCHEMA_TEXT: &str = include_str!("../../schema/report.schema.json");
+
 #[derive(Serialize)]
 struct Report<'a> {
     schema: u32,
