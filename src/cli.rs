@@ -82,7 +82,7 @@ pub fn main() -> ExitCode {
         Command::Stability(arguments) => in_pool(arguments.jobs, || done(stability::run(&arguments))),
         Command::Speed(arguments) => in_pool(None, || done(speed::run(&arguments))),
         Command::Scene(arguments) => scene::run(&arguments),
-        Command::Schema => done(Ok(print_text(crate::report::json::SCHEMA_TEXT))),
+        Command::Schema => done(schema()),
         Command::Completions(arguments) => done(shell::completions(&arguments)),
         Command::Man(arguments) => done(shell::man(&arguments)),
     };
@@ -93,6 +93,11 @@ pub fn main() -> ExitCode {
             ExitCode::from(UNUSABLE)
         }
     }
+}
+
+fn schema() -> miette::Result<()> {
+    print_text(&crate::report::json::schema()?);
+    Ok(())
 }
 
 /// Runs with the number of threads that is asked for. A deep formula needs more stack than threads usually have.
