@@ -277,3 +277,14 @@ fn a_law_is_taken_as_given_if_a_state_satisfies_it() {
     assert_eq!(verdict(r"\frac{d}{dt} x^2 = 2 x \dot{x}", r#"kind = "law""#), Verdict::Holds);
     assert_eq!(verdict(r"\mathbf{u} = a", r#"kind = "law""#), Verdict::Fails);
 }
+
+#[test]
+fn where_nothing_moves_a_premise_speaks_of_one_moment() {
+    // Differentiated, the first would say t = 0, the second a = 0.
+    assert_eq!(verdict("b^4 = (a^2 t^2 + c^2)^2", "where = 'b^2 = a^2 t^2 + c^2'"), Verdict::Holds);
+    assert_eq!(verdict("b^6 = a^3 t^3", "where = 'b^2 = a t'"), Verdict::Holds);
+    assert_eq!(verdict("b^6 = 2 a^3 t^3", "where = 'b^2 = a t'"), Verdict::Fails);
+    // What moves is differentiated as before.
+    assert_eq!(verdict(r"\dot{x} = a", "where = 'x = a t'"), Verdict::Holds);
+    assert_eq!(verdict(r"2 x \dot{x} = a", "where = 'x^2 = a t'"), Verdict::Holds);
+}

@@ -92,10 +92,7 @@ fn is_readable(scope: &Scope, node: &Node) -> bool {
 
 /// The inline formulas of a document with their places, their macros expanded.
 pub fn inline(document: &Document) -> impl Iterator<Item = (Span, Formula)> {
-    document.formulas.iter().map(|inline| {
-        let latex = document.source.get(inline.span.clone()).unwrap_or_default();
-        (inline.span.clone(), Formula::with_macros(latex, &inline.macros))
-    })
+    document.formulas.iter().map(|span| (span.clone(), Formula::new(document.formula(span))))
 }
 
 /// The declarations in force where an inline formula stands: those of the display before it, or of the first one.

@@ -3,8 +3,9 @@
 use super::{Chart, Run, charts};
 use crate::check::exact::Exact;
 use crate::check::verdict::{
-    Assignment, Certificate, Correction, Counterexample, DimensionFinding, DimensionStatus, DocumentReport, Enclosure,
-    ExactValue, InferredDimension, Judgement, LinkJudgement, LostBits, Order, Strength, TermDimension, Verdict,
+    Assignment, Assumed, Certificate, Correction, Counterexample, Difference, DimensionFinding, DimensionStatus,
+    DocumentReport, Enclosure, ExactValue, Inferred, InferredDimension, Judgement, LinkJudgement, LostBits, Order,
+    Strength, Suspect, TermDimension, Verdict,
 };
 
 /// A link with a verdict and nothing else.
@@ -213,8 +214,9 @@ pub(super) fn run() -> Run {
     damaged.numbered = false;
     let mut equations = vec![definition, identity, damaged, erratum(), approximation(), chain()];
     equations.extend(others());
+    equations.extend(unannotated());
     let first = DocumentReport {
-        assumed: Vec::new(),
+        assumed: vec![assumed()],
         name: "gyroscope".into(),
         path: "notes/gyroscope.md".into(),
         title: "ジャイロスコープ & <tops>".into(),
@@ -226,7 +228,19 @@ pub(super) fn run() -> Run {
         problems: vec!["line 7: a display is not closed: `$$ a`".into()],
         equations,
     };
-    let empty = DocumentReport {
+    Run {
+        seed: 42,
+        states: 64,
+        precision: None,
+        documents: vec![first, empty()],
+        charts: vec![chart()],
+        micros: 31_400,
+    }
+}
+
+/// A document without equations.
+pub(super) fn empty() -> DocumentReport {
+    DocumentReport {
         assumed: Vec::new(),
         name: "empty".into(),
         path: "notes/empty.md".into(),
@@ -234,6 +248,38 @@ pub(super) fn run() -> Run {
         problems: Vec::new(),
         inferred: Vec::new(),
         equations: Vec::new(),
-    };
-    Run { seed: 42, states: 64, precision: None, documents: vec![first, empty], charts: vec![chart()], micros: 31_400 }
+    }
+}
+
+/// Equations that nothing is annotated of: one whose premises were found, one that would follow after an edit.
+fn unannotated() -> Vec<Judgement> {
+    let mut found = judgement("91", "derived", agreeing(r"v = r \dot{\varphi}"));
+    found.given = vec!["56".into()];
+    found.inferred = Some(Inferred {
+        given: vec!["56".into()],
+        formulas: vec![r"r = l \sin\theta".into()],
+        needs: vec!["r > 0".into()],
+        ..Inferred::default()
+    });
+    let mut suspected = judgement("92", "identity", link(r"a = r \dot{\varphi}", Verdict::Undecided));
+    suspected.as_expected = false;
+    suspected.reason = Some(
+        "it does not follow from what stands before it; with one edit it would follow from (91): `r` squared".into(),
+    );
+    suspected.suspect = Some(Suspect {
+        edit: "`r` squared".into(),
+        latex: r"a = r^2 \dot{\varphi}".into(),
+        label: "92".into(),
+        premises: vec!["91".into(), "$k = r^2$".into()],
+        diff: Some(Difference {
+            printed: r"a = [-r-] \dot{\varphi}".into(),
+            suggested: r"a = {+r^2+} \dot{\varphi}".into(),
+        }),
+    });
+    vec![found, suspected]
+}
+
+/// A symbol that is declared nowhere.
+fn assumed() -> Assumed {
+    Assumed { symbol: r"\theta".into(), role: "an angle".into(), range: Some([0.2, 1.4]), moves: true, line: 7 }
 }

@@ -14,10 +14,13 @@ use tera::{Context, Kwargs, State, Tera};
 
 /// The templates by the names under which they include each other. The names end in `.html`, so what they are given is
 /// escaped.
-const TEMPLATES: [(&str, &str); 19] = [
+const TEMPLATES: [(&str, &str); 22] = [
     ("page.html", include_str!("../../templates/page.html")),
     ("index.html", include_str!("../../templates/index.html")),
     ("report.html", include_str!("../../templates/report.html")),
+    ("errata.html", include_str!("../../templates/errata.html")),
+    ("entry.html", include_str!("../../templates/entry.html")),
+    ("map.html", include_str!("../../templates/map.html")),
     ("summary.html", include_str!("../../templates/summary.html")),
     ("contents.html", include_str!("../../templates/contents.html")),
     ("find.html", include_str!("../../templates/find.html")),
@@ -59,8 +62,8 @@ struct Common {
     style_policy: String,
 }
 
-/// The run as pages: one for each document, and the entry, `report.html`, last. With one document the entry is that
-/// document's page.
+/// The run as pages: for each document its errata sheet, its derivation map and its page, and the entry, `report.html`,
+/// last. With one document the entry is that document's page.
 ///
 /// # Errors
 /// [`ReportError::Template`]: a template does not fit the data, which is a defect of Kenzan.
@@ -69,10 +72,18 @@ pub fn pages(run: &Run, options: Options) -> Result<Vec<Page>, ReportError> {
     let press = Press::new(options)?;
     let mut pages = Vec::new();
     for document in &site.documents {
-        pages.push(Page { file: document.files.page.clone(), html: press.print("report.html", "document", document)? });
+        let mut page = |file: &str, template: &str| {
+            let html = press.print(template, "document", document)?;
+            pages.push(Page { file: file.to_owned(), html });
+            Ok::<(), ReportError>(())
+        };
+        let files = &document.files;
+        page(&files.errata, "errata.html")?;
+        page(&files.map, "map.html")?;
+        page(&files.page, "report.html")?;
     }
-    let entry = match pages.as_slice() {
-        [only] => only.html.clone(),
+    let entry = match (site.documents.as_slice(), pages.last()) {
+        ([_], Some(page)) => page.html.clone(),
         _ => press.print("index.html", "index", &site.index)?,
     };
     pages.push(Page { file: ENTRY.to_owned(), html: entry });

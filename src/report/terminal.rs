@@ -9,12 +9,12 @@ use std::fmt::{Display, Write};
 /// The summary: for each document the counts, then each equation that fails, cannot be decided or read, or is not as
 /// expected, with its place and what it should read.
 pub fn render(run: &Run, colour: bool, options: Options) -> String {
-    let w = options.language.words();
+    let (language, w) = (options.language, options.language.words());
     let paint = Paint { colour };
     let mut text = String::new();
     for document in &run.documents {
         // Writing to a string cannot fail.
-        let _ = summarize(&mut text, document, w, paint);
+        let _ = summarize(&mut text, document, language, paint);
     }
     let counts = Counts::of(run.documents.iter().flat_map(|d| &d.equations));
     let problems = match run.documents.iter().map(|d| d.problems.len()).sum::<usize>() {
@@ -38,7 +38,8 @@ pub fn render(run: &Run, colour: bool, options: Options) -> String {
     text + &total + "\n"
 }
 
-fn summarize(text: &mut String, document: &DocumentReport, w: &Words, paint: Paint) -> std::fmt::Result {
+fn summarize(text: &mut String, document: &DocumentReport, language: Language, paint: Paint) -> std::fmt::Result {
+    let w = language.words();
     let counts = Counts::of(&document.equations);
     writeln!(text, "{}", paint.bold(&format!("{}  {}", document.path, document.title)))?;
     let shares: Vec<_> =
@@ -51,7 +52,7 @@ fn summarize(text: &mut String, document: &DocumentReport, w: &Words, paint: Pai
         writeln!(text, "  {} {}", paint.verdict(Verdict::Unreadable, "!"), one_line(problem))?;
     }
     for judgement in document.equations.iter().filter(|j| is_shown(j)) {
-        line(text, document, judgement, w, paint)?;
+        line(text, document, judgement, language, paint)?;
     }
     mutants(text, document, w)?;
     writeln!(text)
@@ -109,7 +110,7 @@ fn share(counts: Counts, verdict: Verdict, w: &Words, paint: Paint) -> String {
 pub(super) fn of_one(document: &DocumentReport, j: &Judgement) -> String {
     let mut text = String::new();
     // Writing to a string cannot fail.
-    let _ = line(&mut text, document, j, Language::English.words(), Paint { colour: false });
+    let _ = line(&mut text, document, j, Language::English, Paint { colour: false });
     text.lines().map(|line| line.trim_start().to_owned()).collect::<Vec<_>>().join("\n")
 }
 
@@ -119,7 +120,14 @@ fn is_shown(j: &Judgement) -> bool {
         || !j.dimension_findings.is_empty()
 }
 
-fn line(text: &mut String, document: &DocumentReport, j: &Judgement, w: &Words, paint: Paint) -> std::fmt::Result {
+fn line(
+    text: &mut String,
+    document: &DocumentReport,
+    j: &Judgement,
+    language: Language,
+    paint: Paint,
+) -> std::fmt::Result {
+    let w = language.words();
     let mark = paint.verdict(j.verdict, &format!("{} ({})", symbol(j.verdict), one_line(&j.label)));
     write!(text, "  {mark} {}:{} {}", one_line(document.path_of(j)), j.line, w.verdict(j.verdict))?;
     let phrase = |verdict| w.phrase(verdict);
@@ -132,7 +140,7 @@ fn line(text: &mut String, document: &DocumentReport, j: &Judgement, w: &Words, 
         write!(text, "{}", w.terminal_as_expected)?;
     }
     if let Some(reason) = reason(j) {
-        write!(text, "{}{}", w.terminal_reason, one_line(reason))?;
+        write!(text, "{}{}", w.terminal_reason, one_line(&language.say(reason)))?;
     }
     writeln!(text)?;
     if let Some(correction) = &j.correction {
@@ -151,7 +159,7 @@ fn line(text: &mut String, document: &DocumentReport, j: &Judgement, w: &Words, 
         writeln!(text, "      {}", with(w.terminal_dimension_finding, &[("text", &message)]))?;
     }
     for suggestion in &j.suggestions {
-        writeln!(text, "      {}", with(w.terminal_perhaps, &[("edit", &one_line(&suggestion.edit))]))?;
+        writeln!(text, "      {}", with(w.terminal_perhaps, &[("edit", &one_line(&language.say(&suggestion.edit)))]))?;
         if let Some(diff) = &suggestion.diff {
             writeln!(text, "        - {}", one_line(&diff.printed))?;
             writeln!(text, "        + {}", one_line(&diff.suggested))?;

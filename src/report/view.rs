@@ -8,7 +8,7 @@ use super::names::{self, Files};
 use super::text::{duration, language, symbol, word};
 use super::view_equation::Equation;
 use super::words::{Words, count, with};
-use super::{Counts, Options, Run, view_charts, view_dimensions};
+use super::{Counts, Options, Run, view_charts, view_dimensions, view_errata, view_inferred, view_map};
 use crate::check::verdict::{DocumentReport, Verdict};
 use serde::Serialize;
 use std::collections::HashMap;
@@ -69,6 +69,9 @@ pub(super) struct Document {
     /// Those whose checks let a mutant pass.
     insensitive: Vec<Equation>,
     charts: Vec<view_charts::View>,
+    assumed: Vec<view_inferred::AssumedView>,
+    pub sheet: view_errata::Sheet,
+    pub map: view_map::Map,
 }
 
 /// A verdict's share of a document: a segment of its bar.
@@ -82,12 +85,12 @@ struct Share {
 }
 
 #[derive(Serialize)]
-struct Section {
-    anchor: String,
-    title: String,
-    title_html: String,
-    lang: Option<&'static str>,
-    equations: Vec<Equation>,
+pub(super) struct Section {
+    pub anchor: String,
+    pub title: String,
+    pub title_html: String,
+    pub lang: Option<&'static str>,
+    pub equations: Vec<Equation>,
 }
 
 /// A verdict as it is shown.
@@ -95,8 +98,10 @@ struct Section {
 pub(super) struct Badge {
     /// Its class: its name in `report.json`.
     pub class: &'static str,
-    word: &'static str,
-    symbol: &'static str,
+    /// Its name in the page's language.
+    pub word: &'static str,
+    /// A sign that stands for it.
+    pub symbol: &'static str,
 }
 
 /// The pages of a run.
@@ -191,7 +196,11 @@ impl<'r> Builder<'r> {
         let chosen = |keep: fn(&&Equation) -> bool| {
             sections.iter().flat_map(|s| &s.equations).filter(keep).cloned().collect::<Vec<_>>()
         };
+        let mapper = view_map::Mapper::new(document, &files.page, &sections, self);
         Document {
+            map: mapper.map(&sections),
+            sheet: view_errata::sheet(document, &sections, self),
+            assumed: view_inferred::assumed(document, self),
             anchor,
             files,
             overview: (!alone).then_some(names::ENTRY),

@@ -1,7 +1,7 @@
 //! The diagnosis for the templates: sensitivity, survivors, suggestions.
 
 use super::math::{self, Renderer};
-use super::words::{Words, count, with};
+use super::words::{Language, Words, count, with};
 use crate::check::verdict::{Judgement, Sensitivity};
 use crate::latex::diff::mark_by;
 use serde::Serialize;
@@ -26,8 +26,9 @@ pub(super) struct Diagnosis {
     suggestions: Vec<SuggestionView>,
 }
 
-pub(super) fn view(j: &Judgement, renderer: &Renderer, w: &Words) -> Diagnosis {
-    let words = |edit: &String| renderer.prose(&edit.replace('`', "$"));
+pub(super) fn view(j: &Judgement, renderer: &Renderer, language: Language) -> Diagnosis {
+    let w = language.words();
+    let words = |edit: &String| renderer.prose(&language.say(edit).replace('`', "$"));
     let survivors = j.sensitivity.iter().flat_map(|s| &s.survivors);
     let suggestion = |s: &crate::check::verdict::Suggestion| {
         let marks = mark_by(&s.printed, &s.latex, [math::marked; 2])

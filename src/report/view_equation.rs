@@ -4,7 +4,7 @@ use super::math;
 use super::text::{self, duration, number};
 use super::view::{Badge, Builder};
 use super::words::{Words, count, with};
-use super::{view_certificate, view_diagnosis, view_dimensions};
+use super::{view_certificate, view_diagnosis, view_dimensions, view_inferred};
 use crate::check::verdict::{Correction, Counterexample, Judgement, LinkJudgement, Order, Strength};
 use crate::latex::diff::mark_by;
 use serde::Serialize;
@@ -13,7 +13,7 @@ use std::collections::HashMap;
 /// An equation on a document's page.
 #[derive(Clone, Serialize)]
 pub(super) struct Equation {
-    anchor: String,
+    pub anchor: String,
     document: String,
     label: String,
     numbered: bool,
@@ -24,7 +24,7 @@ pub(super) struct Equation {
     facts: Vec<String>,
     time: Option<String>,
     math_html: String,
-    printed_html: String,
+    pub printed_html: String,
     latex: String,
     as_printed: bool,
     reading: Option<String>,
@@ -39,16 +39,20 @@ pub(super) struct Equation {
     dimensions: view_dimensions::View,
     counterexample: Option<CounterexampleView>,
     order: Option<OrderView>,
-    correction: Option<CorrectionView>,
+    pub correction: Option<CorrectionView>,
     /// Whether the annotation says what is expected.
     expected: bool,
     as_expected: bool,
     pub diagnosis: view_diagnosis::Diagnosis,
+    found: Option<view_inferred::Found>,
+    pub suspect: Option<view_inferred::SuspectView>,
 }
 
 #[derive(Clone, Serialize)]
-struct Premise {
+pub(super) struct Premise {
+    /// Its label; of an inline formula the formula itself.
     label: String,
+    label_html: String,
     href: Option<String>,
 }
 
@@ -95,9 +99,9 @@ struct Residual {
 }
 
 #[derive(Clone, Serialize)]
-struct CorrectionView {
+pub(super) struct CorrectionView {
     badge: Badge,
-    math_html: String,
+    pub math_html: String,
     latex: String,
     links: Vec<LinkView>,
 }
@@ -117,6 +121,7 @@ impl Builder<'_> {
         let (printed_html, correction) = self.correction(j, &math_html);
         let premise = |label: &String| Premise {
             label: label.clone(),
+            label_html: self.premise(label),
             href: labels.get(label.as_str()).map(|anchor| format!("#{anchor}")),
         };
         // A single link repeats the equation: what it knows more is shown with the equation itself.
@@ -148,8 +153,8 @@ impl Builder<'_> {
             given: j.given.iter().map(premise).collect(),
             assumptions_html: j.assumptions.iter().map(|a| self.renderer.inline(a)).collect(),
             because_html: j.because.as_ref().map(|b| self.renderer.prose(b)),
-            reason_html: reason.map(|r| self.renderer.prose(r)),
-            why_html: text::reason(j).map(|r| self.renderer.prose(r)),
+            reason_html: reason.map(|r| self.reason(r)),
+            why_html: text::reason(j).map(|r| self.reason(r)),
             links: if only.is_some() { Vec::new() } else { j.links.iter().map(|l| self.link(l)).collect() },
             dimensions: view_dimensions::view(j, &self.renderer, w),
             counterexample: j.counterexample.as_ref().map(|c| self.counterexample(c)),
@@ -157,8 +162,20 @@ impl Builder<'_> {
             correction,
             expected: j.expect.is_some(),
             as_expected: j.as_expected,
-            diagnosis: view_diagnosis::view(j, &self.renderer, w),
+            diagnosis: view_diagnosis::view(j, &self.renderer, self.options.language),
+            found: j.inferred.as_ref().map(|i| view_inferred::found(i, self)),
+            suspect: j.suspect.as_ref().map(|s| view_inferred::suspect(j, s, self, premise)),
         }
+    }
+
+    /// A reason in the page's language, where it has been translated.
+    pub fn reason(&self, reason: &str) -> String {
+        self.renderer.prose(&self.options.language.say(reason))
+    }
+
+    /// A premise: a label in brackets, or an inline formula between dollars.
+    pub fn premise(&self, name: &str) -> String {
+        if name.starts_with('$') { self.renderer.prose(name) } else { format!("({})", text::escape(name)) }
     }
 
     /// The printed formula and its correction with what differs marked.
@@ -188,7 +205,7 @@ impl Builder<'_> {
             badge: self.badge(link.verdict),
             math_html: self.renderer.display(&link.latex),
             facts,
-            reason_html: link.reason.as_ref().map(|r| self.renderer.prose(r)),
+            reason_html: link.reason.as_ref().map(|r| self.reason(r)),
             counterexample: link.counterexample.as_ref().map(|c| self.counterexample(c)),
             order: link.order.as_ref().map(|o| self.order(o)),
         }

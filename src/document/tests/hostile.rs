@@ -158,11 +158,34 @@ fn large_input_takes_no_more_than_linear_time() {
         "~",
         "\\quad",
         "$$ > \n",
+        "\\(",
+        "\\(a\\) ",
+        "\\label{",
+        "\\eqref{a}",
+        "\\newcommand{",
+        "\\newcommand\\a{b}$$\\a$$ ",
+        "\\def\\a#1{",
+        "\\input{a}",
+        "\\begin{verbatim}",
+        "\\verb|a",
+        "\\section{",
+        "%",
+        "%!a=1\n",
+        "@eq",
+        "Eq. (1",
+        "{eq}`",
+        "\\begin{align}a\\label{b}\\\\",
+        "a\\label{b}\\\\",
+        "\\begin{equation}a\\end{equation}",
     ] {
         let source = unit.repeat(size / unit.len());
         let start = Instant::now();
         let document = parse(&source);
         let inside = parse(&format!("$$ {} $$", source.replace("$$", "")));
+        let article = super::super::parse(Path::new("notes.tex"), &format!("\\begin{{align}} {source}"));
+        let rows = super::super::parse(Path::new("notes.tex"), &format!("\\begin{{align}} {source} \\end{{align}}"));
+        check_promises(&article);
+        check_promises(&rows);
         assert!(start.elapsed() < Duration::from_secs(10), "{unit:?} took {:?}", start.elapsed());
         println!("{unit:?}: {:?}, {} and {} items", start.elapsed(), document.items.len(), inside.items.len());
     }

@@ -153,6 +153,11 @@ impl Macros {
         Macros { all: Arc::clone(all), until }
     }
 
+    /// Those of all definitions.
+    pub fn all(all: &Definitions) -> Self {
+        Macros { until: all.count, all: Arc::new(all.clone()) }
+    }
+
     /// What a macro of the notes stands for.
     fn find(&self, name: &str) -> Option<&Macro> {
         let meanings = self.all.defined.get(name)?;

@@ -5,9 +5,11 @@
 
 mod en;
 mod ja;
+mod reasons;
 
 use crate::check::verdict::{Strength, Verdict};
 use serde::Serialize;
+use std::borrow::Cow;
 
 /// The language of a report's own words.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, clap::ValueEnum)]
@@ -41,6 +43,14 @@ impl Language {
         match self {
             Language::English => "en",
             Language::Japanese => "ja",
+        }
+    }
+
+    /// A sentence that the checker composed, in this language where it is one of the frequent ones.
+    pub(super) fn say(self, english: &str) -> Cow<'_, str> {
+        match self {
+            Language::English => english.into(),
+            Language::Japanese => reasons::japanese(english),
         }
     }
 
@@ -246,6 +256,57 @@ pub(super) struct Words {
     pub legend_undecided: &'static str,
     pub legend_unreadable: &'static str,
     pub legend_strengths: &'static str,
+
+    // What was found out where nothing is annotated
+    pub found: &'static str,
+    pub new_here: &'static str,
+    pub needs: &'static str,
+    pub suspect: &'static str,
+    pub suspect_head: &'static str,
+    pub assumed_count: &'static str,
+    pub assumed_note: &'static str,
+    pub assumed_symbol: &'static str,
+    pub assumed_role: &'static str,
+    pub assumed_range: &'static str,
+    pub assumed_line: &'static str,
+    pub assumed_moves: &'static str,
+
+    // The errata sheet
+    pub sheet_title: &'static str,
+    pub sheet_note: &'static str,
+    pub sheet_entries: &'static str,
+    pub sheet_suspects: &'static str,
+    pub sheet_suspects_note: &'static str,
+    pub sheet_open: &'static str,
+    pub sheet_none: &'static str,
+    pub sheet_change: &'static str,
+    pub sheet_why: &'static str,
+    pub sheet_differ: &'static str,
+    pub sheet_certified: &'static str,
+    pub sheet_exact: &'static str,
+    pub sheet_order: &'static str,
+    pub sheet_agree: &'static str,
+    pub sheet_premises: &'static str,
+    pub sheet_edit_of: &'static str,
+    pub sheet_would_follow: &'static str,
+
+    // The derivation map
+    pub map_title: &'static str,
+    pub map_note: &'static str,
+    pub map_summary: &'static str,
+    pub map_part: &'static str,
+    pub map_drawing: &'static str,
+    pub map_spoken_rests: &'static str,
+    pub map_spoken_danger: &'static str,
+    pub map_table: &'static str,
+    pub map_equation: &'static str,
+    pub map_verdict: &'static str,
+    pub map_rests_on: &'static str,
+    pub map_used_by: &'static str,
+    pub map_danger: &'static str,
+    pub map_alone: &'static str,
+    pub map_none: &'static str,
+    pub map_found: &'static str,
 
     // The terminal
     pub terminal_expected: &'static str,
