@@ -89,8 +89,9 @@ pub fn pipeline(data: &[u8]) {
         assert!(!reason.contains("Kenzan broke down"), "{reason}");
     }
     let run = verify::run(&verified, &request, Instant::now());
-    let options = report::Options { times: false };
-    let page = html::render(&run, options).expect("the templates fit all data");
+    let options = report::Options { times: false, ..report::Options::default() };
+    let pages = html::pages(&run, options).expect("the templates fit all data");
+    let page: String = pages.into_iter().map(|page| page.html).collect();
     json::render(&run, options).expect("all data are JSON");
     terminal::render(&run, true, options);
     assert!(page.ends_with("</html>\n"), "the page is whole");

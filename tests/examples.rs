@@ -40,7 +40,8 @@ fn session(note: &Path) -> String {
     let summary: Vec<&str> = printed.lines().filter(|l| !l.starts_with("report: ")).collect();
     let details = String::from_utf8(run.stderr).unwrap();
     let code = run.status.code().unwrap();
-    let text = format!("$ kenzan verify {name}\n{}\n\n{}\n\nexit code {code}\n", summary.join("\n").trim(), details.trim());
+    let text =
+        format!("$ kenzan verify {name}\n{}\n\n{}\n\nexit code {code}\n", summary.join("\n").trim(), details.trim());
     let lines: Vec<&str> = text.lines().map(str::trim_end).collect();
     lines.join("\n").replace("\n\n\n\n", "\n\n").replace("\n\n\n", "\n\n") + "\n"
 }

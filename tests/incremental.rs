@@ -19,8 +19,10 @@ fn told(verified: Verified, request: &Request) -> (String, String, Vec<Problem>)
     let problems = verified.report.equations.iter().flat_map(|e| e.problems()).chain(&verified.problems).cloned();
     let problems = problems.collect();
     let run = verify::run(&[verified], request, Instant::now());
-    let without_times = report::Options { times: false };
-    (html::render(&run, without_times).unwrap(), json::render(&run, without_times).unwrap(), problems)
+    let without_times = report::Options { times: false, ..report::Options::default() };
+    let pages = html::pages(&run, without_times).unwrap();
+    let page = pages.into_iter().map(|page| page.html).collect();
+    (page, json::render(&run, without_times).unwrap(), problems)
 }
 
 /// A pool whose threads have the stack that deep formulas need.

@@ -8,6 +8,7 @@ use clap::ValueEnum;
 use crate::check::Options;
 use crate::config::{Config, ConfigError};
 use crate::document::Document;
+use crate::files;
 use crate::report::Language;
 use crate::verify::{self, Request};
 
@@ -109,12 +110,14 @@ impl Notes {
         Ok(config.files()?.unwrap_or_else(|| vec![folder]))
     }
 
-    /// The notes themselves.
-    pub fn read(&self, config: &Config) -> miette::Result<Vec<Document>> {
+    /// The notes themselves; where `lenient`, without those that hold no equation.
+    pub fn read(&self, config: &Config, lenient: bool) -> miette::Result<Vec<Document>> {
         if self.bundled {
             return Ok(verify::bundled());
         }
-        let mut documents = verify::documents(&self.paths(config)?)?;
+        let paths = self.paths(config)?;
+        let read = if lenient && !paths.is_empty() { files::read_any(&paths) } else { verify::documents(&paths) };
+        let mut documents = read?;
         if self.paths.is_empty() {
             documents.retain(|document| !config.excludes(&document.path));
         }

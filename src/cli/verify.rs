@@ -25,6 +25,10 @@ pub struct Arguments {
     /// The directory of report.html and report.json [default: out].
     #[arg(long)]
     out: Option<PathBuf>,
+    /// Write no report, and pass over files without an equation instead of refusing them: for hooks, which are given all
+    /// files.
+    #[arg(long)]
+    hook: bool,
     /// What to print: a summary, or the report as JSON, JUnit's XML, SARIF, or GitHub's commands [default: human].
     #[arg(long, value_enum)]
     format: Option<Format>,
@@ -53,7 +57,7 @@ struct Printed {
 pub fn run(arguments: &Arguments) -> miette::Result<u8> {
     // Of the bundled notes no course's kenzan.toml says anything.
     let config = if arguments.notes.bundled { crate::config::Config::default() } else { options::config()? };
-    let documents = arguments.notes.read(&config)?;
+    let documents = arguments.notes.read(&config, arguments.hook)?;
     let request = arguments.diagnosis.request(arguments.sampling.options(&config)?, arguments.only.clone(), &config);
     let format = arguments.format.map_or_else(|| config.format(options::word), |f| Ok(Some(f)))?;
     let times = !arguments.no_times && config.times.unwrap_or(true);
@@ -62,10 +66,16 @@ pub fn run(arguments: &Arguments) -> miette::Result<u8> {
         options: report::Options { times, language: arguments.words.language(&config)? },
     };
     let out = arguments.out.clone().or_else(|| config.out()).unwrap_or_else(|| "out".into());
-    in_pool(arguments.sampling.jobs(&config)?, || verify_documents(documents, &request, &out, printed))
+    let out = (!arguments.hook).then_some(out.as_path());
+    in_pool(arguments.sampling.jobs(&config)?, || verify_documents(documents, &request, out, printed))
 }
 
-fn verify_documents(documents: Vec<Document>, request: &Request, out: &Path, printed: Printed) -> miette::Result<u8> {
+fn verify_documents(
+    documents: Vec<Document>,
+    request: &Request,
+    out: Option<&Path>,
+    printed: Printed,
+) -> miette::Result<u8> {
     let begin = Instant::now();
     let total: usize = documents.iter().map(|d| d.equations().count()).sum();
     let bar = progress(total);
@@ -77,8 +87,8 @@ fn verify_documents(documents: Vec<Document>, request: &Request, out: &Path, pri
         show_problems(v);
     }
     let run = verify::run(&verified, request, begin);
-    let written = report::write(&run, out, printed.options)?;
-    print(&run, printed, &written)?;
+    let written = out.map(|out| report::write(&run, out, printed.options)).transpose()?;
+    print(&run, printed, written.as_ref())?;
     Ok(if verify::all_as_expected(&verified) { AS_EXPECTED } else { NOT_AS_EXPECTED })
 }
 
@@ -114,12 +124,13 @@ fn check_labels(request: &Request, verified: &[Verified]) -> miette::Result<()> 
     Ok(())
 }
 
-fn print(run: &Run, printed: Printed, written: &report::Written) -> miette::Result<()> {
+fn print(run: &Run, printed: Printed, written: Option<&report::Written>) -> miette::Result<()> {
     let text = match printed.format {
         Format::Human => {
             let colour = std::io::stdout().is_terminal() && std::env::var_os("NO_COLOR").is_none();
             let summary = terminal::render(run, colour, printed.options);
-            format!("{summary}\n{}\n", report::words::where_to_begin(printed.options.language, &written.html))
+            let place = |w: &report::Written| report::words::where_to_begin(printed.options.language, &w.html);
+            written.map_or(summary.clone(), |written| format!("{summary}\n{}\n", place(written)))
         }
         Format::Json => report::json::render(run, printed.options)?,
         Format::Junit => report::annotations::junit(run, printed.options.times)?,

@@ -122,8 +122,8 @@ impl Kenzan {
 }
 
 /// What a quick fix is to an editor.
-fn action(uri: &Uri, text: &str, fix: fix::Fix) -> CodeActionOrCommand {
-    let edit = TextEdit::new(text::range(text, &fix.span), fix.new);
+fn action(uri: &Uri, range: Range, fix: fix::Fix) -> CodeActionOrCommand {
+    let edit = TextEdit::new(range, fix.new);
     let edit = WorkspaceEdit { changes: Some(HashMap::from([(uri.clone(), vec![edit])])), ..WorkspaceEdit::default() };
     CodeActionOrCommand::CodeAction(CodeAction {
         title: fix.title,
@@ -218,7 +218,7 @@ impl LanguageServer for Kenzan {
         let Some((_, judged)) = self.judged(&uri) else { return Ok(None) };
         let mut actions = Vec::new();
         for (label, fixes) in judged.fixes(params.range) {
-            actions.extend(fixes.into_iter().map(|fix| action(&uri, judged.text(), fix)));
+            actions.extend(fixes.into_iter().filter_map(|fix| Some(action(&uri, judged.range(&fix.span)?, fix))));
             if let Some(label) = label {
                 let title = format!("Search what was meant by ({label})");
                 let arguments = vec![uri.as_str().into(), label.into()];

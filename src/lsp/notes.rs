@@ -9,7 +9,7 @@ use tower_lsp_server::ls_types::{DocumentSymbol, Position, Range, SymbolKind, Te
 use crate::check::verdict::{Suggestion, Verdict};
 use crate::check::{Book, Version, inspect::inspect};
 use crate::diagnose::correct;
-use crate::document::{self, EquationAnnotation, Item, Spanned};
+use crate::document::{self, EquationAnnotation, Item, Span, Spanned};
 use crate::incremental::Memory;
 use crate::verify::{self, Request, Verified};
 
@@ -88,9 +88,9 @@ impl Notes {
 }
 
 impl Judged {
-    /// The text.
-    pub fn text(&self) -> &str {
-        &self.text
+    /// The place of a span, where it stands in this text.
+    pub fn range(&self, span: &Span) -> Option<Range> {
+        Some(text::range(&self.text, &show::in_text(&self.verified.document, span)?))
     }
 
     /// What is to be said of the equation at a place, and the place of all of it.
@@ -105,7 +105,7 @@ impl Judged {
             Some((label.clone(), book.entries[k].formula(Version::Corrected).latex.trim().to_owned()))
         };
         let premises: Vec<(String, String)> = judgement.given.iter().filter_map(given).collect();
-        Some((show::hover(judgement, &inspections, &premises), text::range(&self.text, &equation.span)))
+        Some((show::hover(judgement, &inspections, &premises), self.range(&equation.span)?))
     }
 
     /// The fixes of the equations that touch a range, and the label of each of which more may be found by searching.
@@ -114,7 +114,7 @@ impl Judged {
         let document = &self.verified.document;
         let suggestions = lock(&self.suggestions);
         let equations = document.equations().zip(&self.verified.report.equations);
-        let touched = equations.filter(|(e, _)| e.span.start <= end && start <= e.span.end);
+        let touched = equations.filter(|(e, _)| show::touches(document, &e.span, &(start..end)));
         touched
             .map(|(equation, judgement)| {
                 let found =
@@ -141,13 +141,13 @@ impl Judged {
     pub fn definition(&self, position: Position) -> Option<Range> {
         let offset = text::offset(&self.text, position);
         let document = &self.verified.document;
-        let here = |reference: &&Spanned<String>| reference.span.start <= offset && offset <= reference.span.end;
+        let here = |reference: &&Spanned<String>| show::touches(document, &reference.span, &(offset..offset));
         let annotations = document.equations().filter_map(|e| e.annotation.as_ref());
         let reference = annotations.flat_map(references).find(here)?;
         let named = |label: &str| document.equations().find(|e| e.label == label);
         let statement = || reference.value.rsplit_once('.').and_then(|(label, _)| named(label));
         let equation = named(&reference.value).or_else(statement)?;
-        Some(text::range(&self.text, &equation.span))
+        self.range(&equation.span)
     }
 
     /// The sections and the equations, in order.
@@ -165,10 +165,7 @@ impl Judged {
                 Item::Declarations(_) => continue,
             };
             // What stands in another file has no place here.
-            if span.end > self.text.len() || name.is_empty() {
-                continue;
-            }
-            let range = text::range(&self.text, span);
+            let Some(range) = self.range(span).filter(|_| !name.is_empty()) else { continue };
             #[expect(deprecated, reason = "the protocol's type has a field that it gave up")]
             symbols.push(DocumentSymbol {
                 name,

@@ -23,10 +23,10 @@ pub fn diagnostics(verified: &Verified) -> BTreeMap<PathBuf, Vec<Diagnostic>> {
         document.files.iter().map(|file| (file.path.clone(), Vec::new())).collect();
     let mut show = |span: &Span, severity, code: &str, message: String| {
         let Some(file) = document.files.at(span.start) else { return };
-        let source = document.source.get(file.span.clone()).unwrap_or_default();
-        let within = span.start - file.span.start..span.end.saturating_sub(file.span.start);
+        let start = document.files.place(span.start).1;
+        let within = start..start + span.len();
         let diagnostic = Diagnostic {
-            range: text::range(source, &within),
+            range: text::range(&file.text, &within),
             severity: Some(severity),
             code: Some(NumberOrString::String(code.to_owned())),
             source: Some("kenzan".into()),
@@ -116,9 +116,20 @@ pub fn math(equation: &Equation) -> Span {
     equation.span.start + start..equation.span.start + text.len().max(start)
 }
 
+/// The bytes of a span in the first file, which is the one in the editor; `None` for what stands in another.
+pub fn in_text(document: &Document, span: &Span) -> Option<Span> {
+    let (file, start) = document.files.place(span.start);
+    (file == 0).then(|| start..start + span.len())
+}
+
+/// Whether a span touches some bytes of the first file.
+pub fn touches(document: &Document, span: &Span, bytes: &Span) -> bool {
+    in_text(document, span).is_some_and(|span| span.start <= bytes.end && bytes.start <= span.end)
+}
+
 /// The equation at a byte of the first file, with its place among all.
 pub fn at(document: &Document, offset: usize) -> Option<(usize, &Equation)> {
-    document.equations().enumerate().find(|(_, e)| e.span.start <= offset && offset <= e.span.end)
+    document.equations().enumerate().find(|(_, e)| touches(document, &e.span, &(offset..offset)))
 }
 
 /// What stands under the pointer, in Markdown.
