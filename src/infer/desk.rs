@@ -35,6 +35,16 @@ impl Basis {
         Basis { premises: premises.to_vec(), solves: None }
     }
 
+    /// The displays among them, by their numbers in the book, what is solved first.
+    pub fn displays(&self, all: &[Candidate], book: &Book) -> Vec<usize> {
+        let solved = self.solves.iter().filter_map(|label| Some(book.find(label)?.0));
+        let premises = self.premises.iter().filter_map(|k| match all[*k].source {
+            Origin::Display(index, _) => Some(index),
+            _ => None,
+        });
+        solved.chain(premises).collect()
+    }
+
     /// The basis in words: labels, and inline formulas between dollars.
     pub fn names(&self, all: &[Candidate]) -> Vec<String> {
         let name = |k: &usize| match &all[*k].source {

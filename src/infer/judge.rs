@@ -67,11 +67,7 @@ impl Ground {
         let solution = self.solution(&mut desk, &clauses, &open);
         let found = match solution {
             true => None,
-            false => open.iter().find_map(|link| {
-                desk.link = *link;
-                let bases = self.bases(&desk, &clauses);
-                suspects::search(&mut desk, &bases, &first.links)
-            }),
+            false => open.iter().find_map(|link| self.suspect(&mut desk, *link, &clauses, &first.links)),
         };
         let open = if solution { Vec::new() } else { open };
         let judgement = conclude(&mut desk, &clauses, &open);
@@ -80,6 +76,16 @@ impl Ground {
             None if judgement.verdict == Verdict::Holds => self.with_signs(book, index, judgement, false, options),
             None => judgement,
         }
+    }
+
+    /// The likeliest misprint that keeps a link from following: in the link itself, or else in what it may rest on.
+    fn suspect(&self, desk: &mut Desk, link: usize, clauses: &[Clause], links: &[LinkJudgement]) -> Option<Found> {
+        desk.link = link;
+        let (bases, solutions) = (self.bases(desk, clauses), self.solutions(desk, clauses));
+        suspects::search(desk, &bases, links)
+            .or_else(|| suspects::search(desk, &solutions, links))
+            .or_else(|| suspects::search_premises(desk, &solutions))
+            .or_else(|| suspects::search_premises(desk, &bases))
     }
 
     /// What the link at hand may follow from.
@@ -102,10 +108,13 @@ impl Ground {
         // Put into what it solves, an equation is not judged by itself: what else it says would not be.
         let (&[link], [_]) = (open, clauses) else { return false };
         desk.link = link;
-        let unknown = spelling(&clauses[link].lhs);
-        let Some((nearby, target)) = self.nearby(desk, clauses) else { return false };
-        let solutions = premises::solutions(&nearby, &self.candidates, &unknown, &target);
-        desk.search(&solutions).is_some()
+        desk.search(&self.solutions(desk, clauses)).is_some()
+    }
+
+    /// What the equation on the desk may solve, if it says nothing else.
+    fn solutions(&self, desk: &Desk, clauses: &[Clause]) -> Vec<Basis> {
+        let ([clause], Some((nearby, target))) = (clauses, self.nearby(desk, clauses)) else { return Vec::new() };
+        premises::solutions(&nearby, &self.candidates, &spelling(&clause.lhs), &target)
     }
 
     /// What holds for positive values is tried with numbers of either sign, where nothing says that they are positive. An
@@ -239,7 +248,8 @@ fn suspected(mut judgement: Judgement, Found { suspect, contradicts }: Found) ->
     };
     judgement.verdict = verdict;
     judgement.as_expected = false;
-    judgement.reason = Some(format!("{reason}; with one edit it would {follows}: {}", suspect.edit));
+    let of = if suspect.label == judgement.label { String::new() } else { format!(" of ({})", suspect.label) };
+    judgement.reason = Some(format!("{reason}; with one edit{of} it would {follows}: {}", suspect.edit));
     judgement.suspect = Some(suspect);
     judgement
 }
