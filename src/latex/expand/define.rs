@@ -158,7 +158,8 @@ impl<'a> Reader<'a> {
             Some((Kind::Open, _)) => {
                 self.between('{', '}').ok_or(Fault("a definition that is not closed", "add a `}`"))
             }
-            Some((Kind::Close, _)) | None => {
+            // A bracket here is a default that is not closed.
+            Some((Kind::Close, _) | (Kind::Char, "[")) | None => {
                 Err(Fault("a definition that says not what the macro stands for", r"write \newcommand{\name}{..}"))
             }
             Some((_, text)) => {
