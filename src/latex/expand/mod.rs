@@ -21,7 +21,7 @@ mod siunitx;
 #[cfg(test)]
 mod tests;
 
-pub use define::{Defined, definition, is_definition};
+pub use define::{Defined, MOST_FAULTS, definition, is_definition};
 
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
