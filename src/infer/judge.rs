@@ -19,9 +19,9 @@ pub struct Ground {
     /// All formulas that may be premises.
     pub candidates: Vec<Candidate>,
     /// For each equation those that the prose around it names.
-    named: Vec<BTreeSet<usize>>,
+    pub(super) named: Vec<BTreeSet<usize>>,
     /// The guessed roles.
-    guesses: Vec<Guess>,
+    pub(super) guesses: Vec<Guess>,
 }
 
 impl Ground {

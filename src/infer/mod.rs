@@ -12,6 +12,7 @@
 mod candidates;
 mod desk;
 pub mod evidence;
+mod fingerprint;
 mod formulas;
 mod judge;
 mod premises;
