@@ -82,8 +82,9 @@ impl Ground {
     fn suspect(&self, desk: &mut Desk, link: usize, clauses: &[Clause], links: &[LinkJudgement]) -> Option<Found> {
         desk.link = link;
         let (bases, solutions) = (self.bases(desk, clauses), self.solutions(desk, clauses));
-        suspects::search(desk, &bases, links)
-            .or_else(|| suspects::search(desk, &solutions, links))
+        let named = &self.named[desk.index];
+        suspects::search(desk, &bases, named, links)
+            .or_else(|| suspects::search(desk, &solutions, named, links))
             .or_else(|| suspects::search_premises(desk, &solutions))
             .or_else(|| suspects::search_premises(desk, &bases))
     }

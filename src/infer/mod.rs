@@ -7,7 +7,7 @@
 //! printed formula is a [suspect](suspects).
 //!
 //! Promises: no equation fails because of a guess. What holds only where symbols are positive is undecided and says so;
-//! what does not follow is no failure.
+//! what does not follow is no failure, unless it contradicts equations that the prose around it refers to.
 
 mod candidates;
 mod desk;

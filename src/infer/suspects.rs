@@ -1,5 +1,7 @@
 //! Misprints that show themselves: an equation that follows from nothing before it, and would with one edit.
 
+use std::collections::BTreeSet;
+
 use crate::check::verdict::{Difference, LinkJudgement, Suspect, Verdict};
 use crate::check::{self, Formula, Outcome, Version};
 use crate::diagnose::{Edited, slips};
@@ -32,7 +34,7 @@ pub struct Found {
 
 /// The likeliest edit of the link on the desk after which it is an identity or follows from few premises. `links` is the
 /// judgement on the equation as printed.
-pub fn search(desk: &mut Desk, bases: &[Basis], links: &[LinkJudgement]) -> Option<Found> {
+pub fn search(desk: &mut Desk, bases: &[Basis], named: &BTreeSet<usize>, links: &[LinkJudgement]) -> Option<Found> {
     let is_small = |b: &&Basis| b.solves.is_some() || (1..=LARGEST).contains(&b.premises.len());
     let few = bases.iter().filter(is_small).take(BASES).cloned();
     let alone = bases.iter().all(|b| b.solves.is_none()).then(Basis::default);
@@ -44,7 +46,9 @@ pub fn search(desk: &mut Desk, bases: &[Basis], links: &[LinkJudgement]) -> Opti
     }
     desk.lay(&Basis::default());
     let (_, basis, edited) = best?;
-    let contradicts = basis.solves.is_none() && !basis.premises.is_empty() && contradicts(desk, &basis);
+    // A letter may mean something else elsewhere: a contradiction is certain only where the prose refers to all of them.
+    let is_meant = !basis.premises.is_empty() && basis.displays(desk.all, desk.book).iter().all(|k| named.contains(k));
+    let contradicts = basis.solves.is_none() && is_meant && contradicts(desk, &basis);
     let entry = &desk.book.entries[desk.index];
     let before = entry.formula(Version::Printed).tree.as_ref().ok().map(to_latex)?;
     let latex = to_latex(&edited.tree);
@@ -99,7 +103,8 @@ pub fn search_premises(desk: &mut Desk, bases: &[Basis]) -> Option<Found> {
                 if follows {
                     let premises = basis.names(desk.all);
                     desk.lay(&Basis::default());
-                    let diff = diff::words(&before, &latex).map(|(printed, suggested)| Difference { printed, suggested });
+                    let diff =
+                        diff::words(&before, &latex).map(|(printed, suggested)| Difference { printed, suggested });
                     let suspect = Suspect { edit: edited.edit, latex, label, premises, diff };
                     return Some(Found { suspect, contradicts: false });
                 }
