@@ -251,9 +251,15 @@ impl Config {
         Err(self.wrong(number.span(), &message, &format!("for example: {example}")))
     }
 
-    fn word<W, T>(&self, word: Option<&Spanned<W>>, read: impl Fn(&W) -> Result<T, String>) -> Result<Option<T>, ConfigError> {
+    fn word<W, T>(
+        &self,
+        word: Option<&Spanned<W>>,
+        read: impl Fn(&W) -> Result<T, String>,
+    ) -> Result<Option<T>, ConfigError> {
         let Some(word) = word else { return Ok(None) };
-        read(word.get_ref()).map(Some).map_err(|message| self.wrong(word.span(), &message, "the options are those of the command line: kenzan help verify"))
+        read(word.get_ref()).map(Some).map_err(|message| {
+            self.wrong(word.span(), &message, "the options are those of the command line: kenzan help verify")
+        })
     }
 
     fn wrong(&self, place: Range<usize>, message: &str, help: &str) -> ConfigError {
@@ -266,7 +272,8 @@ impl Config {
     }
 }
 
-const GLOBS: &str = "globs are taken from the folder of kenzan.toml: `lectures/*.md`, or `**/*.md` for all folders below";
+const GLOBS: &str =
+    "globs are taken from the folder of kenzan.toml: `lectures/*.md`, or `**/*.md` for all folders below";
 
 #[cfg(test)]
 mod tests {
@@ -285,9 +292,14 @@ mod tests {
 
     #[test]
     fn options_are_read() {
-        let config = parse("files = [\"a/*.md\"]\nseed = 7\nstates = 8\nbudget = 3\njobs = 2\ndeep = true\nout = \"r\"\n").unwrap();
+        let config =
+            parse("files = [\"a/*.md\"]\nseed = 7\nstates = 8\nbudget = 3\njobs = 2\ndeep = true\nout = \"r\"\n")
+                .unwrap();
         assert_eq!((config.seed, config.deep, config.mutants), (Some(7), Some(true), None));
-        assert_eq!((config.states().unwrap(), config.budget().unwrap(), config.jobs().unwrap()), (Some(8), Some(3), Some(2)));
+        assert_eq!(
+            (config.states().unwrap(), config.budget().unwrap(), config.jobs().unwrap()),
+            (Some(8), Some(3), Some(2))
+        );
         assert_eq!(config.out(), Some(PathBuf::from("r")));
     }
 
@@ -317,13 +329,15 @@ mod tests {
         std::fs::write(folder.join("kenzan.toml"), "seed = 1\n").unwrap();
         std::fs::create_dir_all(folder.join("repository/.git")).unwrap();
         assert!(Config::find(&inner).unwrap().is_none());
-        std::fs::write(folder.join("repository/kenzan.toml"), "files = ['**/*.md']\nexclude = ['**/draft*']\n").unwrap();
+        std::fs::write(folder.join("repository/kenzan.toml"), "files = ['**/*.md']\nexclude = ['**/draft*']\n")
+            .unwrap();
         for name in ["lectures/spring/b.md", "lectures/a.md", "lectures/draft.md", "lectures/c.txt"] {
             std::fs::write(folder.join("repository").join(name), "x").unwrap();
         }
         let config = Config::find(&inner).unwrap().unwrap();
         let found = config.files().unwrap().unwrap();
-        let names: Vec<_> = found.iter().map(|p| p.strip_prefix(config.folder()).unwrap().display().to_string()).collect();
+        let names: Vec<_> =
+            found.iter().map(|p| p.strip_prefix(config.folder()).unwrap().display().to_string()).collect();
         assert_eq!(names, ["lectures/a.md", "lectures/spring/b.md"]);
         std::fs::remove_dir_all(&folder).unwrap();
     }

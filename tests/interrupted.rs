@@ -89,13 +89,16 @@ fn what_killed_runs_left_is_removed_in_time() {
     let names = std::fs::read_dir(at.join("out")).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap());
     let mut names: Vec<String> = names.collect();
     names.sort();
-    assert_eq!(names, [
-        "mine.tmp",
-        "notes-errata.html",
-        "notes-map.html",
-        "notes.html",
-        "report.html",
-        "report.json",
-        "report.json.124.tmp"
-    ]);
+    assert_eq!(
+        names,
+        [
+            "mine.tmp",
+            "notes-errata.html",
+            "notes-map.html",
+            "notes.html",
+            "report.html",
+            "report.json",
+            "report.json.124.tmp"
+        ]
+    );
 }

@@ -3,6 +3,7 @@
 
 use std::collections::HashMap;
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::expr::field::{Element, Field, Point, Values};
@@ -28,7 +29,7 @@ const DRAWS: u32 = 256;
 const MOST_ROOTS: usize = 6;
 
 /// An exact verdict.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct Exact {
     /// The number of random points of the field at which the sides are equal.
     pub trials: u32,

@@ -8,6 +8,8 @@ use std::collections::{BTreeSet, HashMap};
 use std::hash::{DefaultHasher, Hash, Hasher};
 use std::sync::Arc;
 
+use rayon::prelude::*;
+
 use crate::document::{Arguments, Equation, EquationAnnotation, LinkPremises, Spanned, SymbolDeclaration};
 use crate::semantics::{self, Scope};
 use crate::trace::{Trace, unrecorded};
@@ -74,6 +76,7 @@ pub struct Fingerprints<'b> {
     /// The book.
     pub book: &'b Book,
     contents: Vec<u64>,
+    more: Vec<u64>,
     /// By the address of the scope: what is no symbol in it, and all of it.
     scopes: HashMap<usize, (u64, u64)>,
     /// By the address of the declaration.
@@ -83,12 +86,25 @@ pub struct Fingerprints<'b> {
 impl<'b> Fingerprints<'b> {
     /// Takes the fingerprints of a book's equations and scopes.
     pub fn new(book: &'b Book) -> Self {
-        let mut prints = Fingerprints { book, contents: Vec::new(), scopes: HashMap::new(), symbols: HashMap::new() };
+        let mut prints = Fingerprints {
+            book,
+            contents: Vec::new(),
+            more: Vec::new(),
+            scopes: HashMap::new(),
+            symbols: HashMap::new(),
+        };
         for entry in book.entries.iter() {
             prints.contents.push(content(&entry.equation, &entry.printed.latex));
             prints.enter(&entry.scope);
         }
         prints
+    }
+
+    /// With more that the equations' judgements depend on, by their places.
+    pub fn with(mut self, more: impl Fn(usize) -> Option<u64> + Sync + Send) -> Self {
+        let all: Vec<Option<u64>> = (0..self.contents.len()).into_par_iter().map(more).collect();
+        self.more = all.into_iter().map(Option::unwrap_or_default).collect();
+        self
     }
 
     fn enter(&mut self, scope: &Arc<Scope>) {
@@ -152,7 +168,7 @@ impl<'b> Fingerprints<'b> {
 
     fn questions(&self, index: usize, footing: &Footing, hasher: &mut DefaultHasher) {
         let label = |k: usize| &self.book.entries.quietly(k).equation.label;
-        label(index).hash(hasher);
+        (label(index), self.more.get(index)).hash(hasher);
         for continued in &footing.continued {
             let before = self.book.labelled(continued).and_then(|k| self.book.entries.quietly(k).previous);
             before.map(label).hash(hasher);

@@ -126,7 +126,10 @@ impl Premises {
         let mut seen: HashSet<Expr> = self.residuals.iter().copied().collect();
         // Where first derivatives are defined by premises a derivative has no higher order than the residual, and would have
         // one again, for ever.
-        let mut queue: Vec<(Expr, u32)> = self.residuals.iter().map(|r| (*r, 0)).collect();
+        // Where nothing moves, t is a number like others, and the equation speaks of one moment.
+        let moves = |graph: &Graph, e: Expr| graph.symbols(&[e]).iter().any(|s| Some(*s) != t && graph.info(*s).of_t);
+        let moving = self.residuals.iter().filter(|r| moves(graph, **r));
+        let mut queue: Vec<(Expr, u32)> = moving.map(|r| (*r, 0)).collect();
         let mut derivatives = Vec::new();
         while let Some((residual, times)) = queue.pop() {
             if times >= highest.max(1) {

@@ -2,13 +2,14 @@
 
 use std::fmt;
 
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::exact::Exact;
 use crate::document::Problem;
 
 /// The verdict on a link or an equation, from best to worst.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Verdict {
     /// Nothing to evaluate, and the reason why is given.
@@ -28,7 +29,7 @@ pub enum Verdict {
 }
 
 /// How sure a verdict is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum Strength {
     /// All trials in the prime field vanish.
@@ -57,7 +58,7 @@ impl Strength {
 }
 
 /// A symbol's value in a counterexample.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Assignment {
     /// The symbol's LaTeX.
     pub symbol: String,
@@ -66,7 +67,7 @@ pub struct Assignment {
 }
 
 /// A state at which the sides of a link differ.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Counterexample {
     /// The symbols' values at the state.
     pub state: Vec<Assignment>,
@@ -83,7 +84,7 @@ pub struct Counterexample {
 }
 
 /// A proof that a link fails at a state: what is needed to repeat it.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Certificate {
     /// The precision of the intervals' endpoints, in bits; none where all is computed in fractions.
     pub bits: Option<u32>,
@@ -98,7 +99,7 @@ pub struct Certificate {
 }
 
 /// A symbol's exact value.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct ExactValue {
     /// The symbol's LaTeX.
     pub symbol: String,
@@ -109,7 +110,7 @@ pub struct ExactValue {
 }
 
 /// Decimals between which a number is proved to lie. Where the number is known exactly both are its decimal or fraction.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Enclosure {
     /// The LaTeX of the symbol; the name of the component or instance, or nothing, for a difference.
     pub name: Option<String>,
@@ -160,7 +161,7 @@ impl Enclosure {
 }
 
 /// The measured order of an approximation.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Order {
     /// The small parameter's LaTeX.
     pub small: String,
@@ -173,7 +174,7 @@ pub struct Order {
 }
 
 /// Whether the terms of an equation have one dimension. It is a finding of its own and decides no verdict.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, JsonSchema)]
 #[serde(rename_all = "lowercase")]
 pub enum DimensionStatus {
     /// They have.
@@ -185,7 +186,7 @@ pub enum DimensionStatus {
 }
 
 /// Terms that should have one dimension and have not.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct DimensionFinding {
     /// What is found, in a sentence, LaTeX between dollars.
     pub message: String,
@@ -202,7 +203,7 @@ pub struct DimensionFinding {
 }
 
 /// A term with its dimension.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct TermDimension {
     /// Its LaTeX, without the sign.
     pub latex: String,
@@ -211,7 +212,7 @@ pub struct TermDimension {
 }
 
 /// A dimension that no unit declares and the equations determine.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct InferredDimension {
     /// The symbol's LaTeX, `#` for an index.
     pub symbol: String,
@@ -222,7 +223,7 @@ pub struct InferredDimension {
 }
 
 /// The bits of a double that rounding in the formula costs, over the states.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct LostBits {
     /// Their mean.
     pub mean: f64,
@@ -231,7 +232,7 @@ pub struct LostBits {
 }
 
 /// The judgement on one link of a chain.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct LinkJudgement {
     /// The link's LaTeX: left side, relation, right side.
     pub latex: String,
@@ -295,7 +296,7 @@ impl LinkJudgement {
 }
 
 /// The formula that should have been printed, with the judgement on it.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Correction {
     /// The corrected formula.
     pub latex: String,
@@ -311,7 +312,7 @@ pub struct Correction {
 }
 
 /// How sensitive a check is: what became of the formula's mutants, each with a single edit, under the same check.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct Sensitivity {
     /// The mutants that fail.
     pub killed: usize,
@@ -328,7 +329,7 @@ pub struct Sensitivity {
 }
 
 /// A formula near a failing one that holds under the same check.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Suggestion {
     /// The formula.
     pub latex: String,
@@ -341,7 +342,7 @@ pub struct Suggestion {
 }
 
 /// Two formulas with what differs marked.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Difference {
     /// The printed one, with `[-...-]` around what goes.
     pub printed: String,
@@ -350,23 +351,37 @@ pub struct Difference {
 }
 
 /// What was found out about an equation that no annotation says anything of.
-#[derive(Clone, Debug, Default, PartialEq, Serialize)]
+#[derive(Clone, Debug, Default, PartialEq, Serialize, JsonSchema)]
 pub struct Inferred {
     /// The labels of the equations that it follows from.
     pub given: Vec<String>,
     /// The inline formulas that it follows from, in LaTeX.
     pub formulas: Vec<String>,
+    /// The labels of the equations that it solves.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub solves: Vec<String>,
     /// Whether it, or a link of it, follows from nothing before it, and so is new there.
     pub new: bool,
     /// What it holds under and is said nowhere, in LaTeX: `a > 0`.
     pub needs: Vec<String>,
-    /// The premises of single links: the link's number, from 1, labels, and formulas.
+    /// The premises of single links; of an equation that solves others, those of the whole are told as link 0.
     #[serde(skip)]
-    pub links: Vec<(usize, Vec<String>, Vec<String>)>,
+    pub links: Vec<InferredLink>,
+}
+
+/// What one link was found to follow from.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct InferredLink {
+    /// The link's number, from 1.
+    pub number: usize,
+    /// The labels of equations.
+    pub given: Vec<String>,
+    /// Formulas in LaTeX.
+    pub formulas: Vec<String>,
 }
 
 /// An equation that does not follow from those before it, but would after one edit of what is printed.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Suspect {
     /// The edit in words, LaTeX between backticks.
     pub edit: String,
@@ -381,7 +396,7 @@ pub struct Suspect {
 }
 
 /// A symbol that the notes do not declare, with the role it was guessed to have.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Assumed {
     /// Its LaTeX.
     pub symbol: String,
@@ -396,7 +411,7 @@ pub struct Assumed {
 }
 
 /// The judgement on one equation.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct Judgement {
     /// Its label.
     pub label: String,
@@ -510,7 +525,7 @@ impl Judgement {
 }
 
 /// The judgements on one document.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
 pub struct DocumentReport {
     /// The file's name without extension.
     pub name: String,

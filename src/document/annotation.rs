@@ -137,6 +137,32 @@ pub const KINDS: [&str; 12] = [
 /// What `expect` may be.
 pub const VERDICTS: [&str; 7] = ["holds", "asymptotic", "definition", "fails", "undecided", "statement", "unreadable"];
 
+impl EquationAnnotation {
+    /// This annotation with what it does not say itself from another one; and the keys that both of them have.
+    pub(super) fn over(mut self, mut other: Self) -> (Self, Vec<&'static str>) {
+        let mut twice = Vec::new();
+        macro_rules! take {
+            ($($field:ident: $key:literal),*) => {$(
+                let (own, found) = (&mut self.$field, std::mem::take(&mut other.$field));
+                if is_blank(own) {
+                    *own = found;
+                } else if !is_blank(&found) {
+                    twice.push($key);
+                }
+            )*};
+        }
+        take!(label: "label", kind: "kind", given: "given", solve: "solve", solves: "solves", general: "general");
+        take!(where_: "where", link: "link", range: "range", small: "small", harmonics: "harmonics", order: "order");
+        take!(iff: "iff", maps: "maps", reading: "reading", correction: "correction", expect: "expect");
+        take!(because: "because", rows: "rows", digits: "digits", data: "data", states: "states", symbols: "symbols");
+        (self, twice)
+    }
+}
+
+fn is_blank<T: Default + PartialEq>(value: &T) -> bool {
+    *value == T::default()
+}
+
 /// What an annotation is about.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum About {

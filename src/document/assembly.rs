@@ -8,11 +8,13 @@ use super::layout::trimmed;
 use super::place::{Span, Spanned};
 use super::problem::Problem;
 use super::scan::{Found, directive};
+use super::sidecar::Sidecar;
 use super::tex::number::{Counted, Counter};
 use super::toml::{self, Reader};
-use super::{Equation, InlineFormula, Item, Section};
+use super::{Document, Equation, Item, Section};
 use crate::latex::expand::{Definitions, Macros};
 use std::collections::HashMap;
+use std::path::Path;
 use std::sync::Arc;
 
 /// A part of the text that matters.
@@ -70,16 +72,17 @@ impl LastDisplay {
 
 /// The document as far as it has been put together.
 pub(super) struct Assembly<'a> {
-    source: &'a str,
+    pub(super) source: &'a str,
     /// The source in which what is no part of the notes (comments, definitions) is blank.
-    clean: &'a str,
-    pub(super) files: Files,
+    pub(super) clean: &'a str,
+    files: Files,
     pub(super) items: Vec<Item>,
     pub(super) problems: Vec<Problem>,
     /// The inline formulas, without their delimiters.
-    pub(super) formulas: Vec<InlineFormula>,
+    formulas: Vec<Span>,
+    expanded: Vec<String>,
     /// All labels with the places where they are printed or given.
-    labels: HashMap<String, Span>,
+    pub(super) labels: HashMap<String, Span>,
     /// The last label printed.
     previous: Option<String>,
     /// The number of labels that have been made up since.
@@ -92,6 +95,7 @@ pub(super) struct Assembly<'a> {
     macros: Macros,
     /// What counts equations as LaTeX does.
     counter: Option<Counter>,
+    pub(super) sidecar: Option<Sidecar>,
 }
 
 impl<'a> Assembly<'a> {
@@ -110,6 +114,7 @@ impl<'a> Assembly<'a> {
             items: Vec::new(),
             problems,
             formulas: Vec::new(),
+            expanded: Vec::new(),
             labels: HashMap::new(),
             previous: None,
             unnumbered: 0,
@@ -119,7 +124,16 @@ impl<'a> Assembly<'a> {
             macros: Macros::until(&definitions, 0),
             definitions,
             counter: None,
+            sidecar: None,
         }
+    }
+
+    /// With a sidecar, whose declarations hold for all of the notes.
+    pub(super) fn beside(mut self, sidecar: Option<Sidecar>) -> Self {
+        self.sidecar = sidecar;
+        let declarations = self.sidecar.as_mut().and_then(|sidecar| sidecar.declarations.take());
+        self.items.extend(declarations.map(Item::Declarations));
+        self
     }
 
     /// Counts equations as LaTeX does.
@@ -127,15 +141,47 @@ impl<'a> Assembly<'a> {
         Assembly { counter: Some(counter), ..self }
     }
 
+    /// The document, when all parts have been added. Without a title of its own it is called by its highest heading.
+    pub(super) fn document(mut self, path: &Path, title: Option<String>) -> Document {
+        self.check_sidecar();
+        self.problems.sort_by_key(|problem| problem.span.start);
+        let name = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
+        Document {
+            title: title.unwrap_or_else(|| name.clone()),
+            name,
+            path: path.to_owned(),
+            source: Arc::from(self.source),
+            items: self.items,
+            problems: self.problems,
+            files: self.files,
+            formulas: self.formulas,
+            expanded: self.expanded,
+        }
+    }
+
+    /// The title of the first heading that is none higher in the notes.
+    pub(super) fn highest_heading(&self) -> Option<&Section> {
+        let headings = self.items.iter().filter_map(|item| match item {
+            Item::Section(section) => Some(section),
+            _ => None,
+        });
+        headings.min_by_key(|section| section.level)
+    }
+
     /// Adds the next part of the text.
     pub(super) fn add(&mut self, part: Part) {
         match part {
             Part::Heading(section) => {
                 self.target = Target::Nothing;
+                let declarations = self.sidecar.as_mut().and_then(|sidecar| sidecar.section(&section.title));
                 self.items.push(Item::Section(section));
+                self.items.extend(declarations.map(Item::Declarations));
             }
             Part::Formula(span, content) => {
-                self.formulas.push(InlineFormula { span: content.clone(), macros: self.macros.clone() });
+                let formula = trimmed(self.source, content.clone());
+                let latex = self.clean.get(formula.clone()).unwrap_or_default();
+                self.expanded.push(self.macros.expand(latex).map_or_else(|_| latex.to_owned(), |found| found.text));
+                self.formulas.push(formula);
                 self.formula = Some((span, content));
             }
             Part::Annotation(span, text) => self.annotation(span.clone(), &text, span.start),
@@ -145,8 +191,8 @@ impl<'a> Assembly<'a> {
                     counter.count(counted);
                 }
             }
-            Part::Found(Found::Display { span, content, environment }) => {
-                self.display(span.start, content, environment)
+            Part::Found(Found::Display { span, content, environment, name }) => {
+                self.display(span.start, content, environment, name);
             }
             Part::Found(Found::Broken { .. }) => {
                 self.target = Target::Damaged;
@@ -156,15 +202,24 @@ impl<'a> Assembly<'a> {
         }
     }
 
-    fn display(&mut self, start: usize, content: Span, environment: Option<String>) {
+    fn display(&mut self, start: usize, content: Span, environment: Option<String>, name: Option<(String, Span)>) {
         let line = self.files.line_start(start);
         let last = LastDisplay { content, line, environment, previous: self.previous.clone() };
         let display = last.take_apart(self.clean);
         let counted = self.counter.as_mut().map(|counter| display.numbers(last.environment.as_deref(), counter));
+        let mut parts = display.parts(&mut self.problems);
+        if let (Some(name), Some(part)) = (name, parts.last_mut()) {
+            match part.label {
+                Some(_) => part.names.push(name.0),
+                None => part.label = Some(name),
+            }
+        }
         let first = self.items.len();
-        for mut part in display.parts(&mut self.problems) {
-            part.names
-                .extend(counted.iter().flatten().filter(|(at, _)| part.rows.contains(at)).map(|(_, n)| n.clone()));
+        let mut counted = counted.into_iter().flatten().peekable();
+        for mut part in parts {
+            part.names.extend(
+                std::iter::from_fn(|| counted.next_if(|(at, _)| *at < part.rows.end)).map(|(_, number)| number),
+            );
             if part.label.is_none() {
                 let free = part.names.iter().find(|name| !self.labels.contains_key(*name));
                 part.label = free.map(|name| (name.clone(), part.span.clone()));
@@ -177,6 +232,7 @@ impl<'a> Assembly<'a> {
         }
         self.displays += 1;
         self.target = Target::Equations { first, count: self.items.len() - first, display: Some(last) };
+        self.annotate_beside(first);
     }
 
     fn equation(&self, label: String, span: Span, masked: String) -> Equation {
@@ -184,7 +240,10 @@ impl<'a> Assembly<'a> {
             label,
             numbered: false,
             numbers: Vec::new(),
-            file: self.files.at(span.start).filter(|file| file.span.start > 0).map(|file| file.path.clone()),
+            file: Some(&span)
+                .filter(|span| self.files.place(span.start).0 > 0)
+                .and_then(|span| self.files.at(span.start))
+                .map(|file| file.path.clone()),
             line: self.files.line(span.start),
             latex: self.source.get(span.clone()).unwrap_or_default().to_owned(),
             masked,
@@ -262,8 +321,9 @@ impl<'a> Assembly<'a> {
     }
 
     /// Gives an annotation to the equation that it belongs to.
-    fn annotate(&mut self, annotation: EquationAnnotation) {
+    pub(super) fn annotate(&mut self, annotation: EquationAnnotation) {
         if let Some(label) = &annotation.label
+            && !self.is_beside(&annotation.span)
             && let Some((_, formula)) =
                 self.formula.take_if(|(formula, _)| is_right_before(self.source, formula, &annotation.span))
         {
@@ -287,13 +347,22 @@ impl<'a> Assembly<'a> {
             self.rename(index, label);
         }
         let Some(Item::Equation(equation)) = self.items.get_mut(index) else { return };
-        match &equation.annotation {
+        let label = equation.label.clone();
+        match equation.annotation.take() {
             None => equation.annotation = Some(annotation),
+            Some(first) if self.sidecar.as_ref().is_some_and(|sidecar| sidecar.holds(&first.span)) => {
+                let places = [first.span.clone(), annotation.span.clone()];
+                let (merged, twice) = annotation.over(first);
+                equation.annotation = Some(merged);
+                self.said_twice(&label, &twice, places);
+            }
             Some(first) => {
-                let message = format!("a second annotation for equation {}", equation.label);
+                let place = first.span.clone();
+                equation.annotation = Some(first);
+                let message = format!("a second annotation for equation {label}");
                 let problem =
                     Problem::error("document::second_annotation", message, first_line(self.source, &annotation.span));
-                let first = first_line(self.source, &first.span);
+                let first = first_line(self.source, &place);
                 self.problems.push(problem.label("passed over").other(first, "the first").help(
                     "put all keys of an equation into one annotation, or say with `for = '..'` which label is meant",
                 ));
@@ -311,6 +380,7 @@ impl<'a> Assembly<'a> {
         self.items.push(Item::Equation(Equation { inline: true, ..equation }));
         self.displays += 1;
         self.target = Target::Equations { first, count: 1, display: None };
+        self.annotate_beside(first);
     }
 
     /// The item that an annotation belongs to; otherwise that is a problem.
@@ -434,7 +504,7 @@ fn is_right_before(source: &str, formula: &Span, comment: &Span) -> bool {
 }
 
 /// The first line of a range, to underline no more than that.
-fn first_line(source: &str, span: &Span) -> Span {
+pub(super) fn first_line(source: &str, span: &Span) -> Span {
     let text = source.get(span.clone()).unwrap_or_default();
     let line = text.lines().next().unwrap_or_default();
     span.start..span.start + line.trim_end().len()

@@ -140,9 +140,9 @@ impl<'a> Display<'a> {
     }
 
     fn part(&self, rows: Span, label: Option<(String, Span)>) -> Part {
-        let inside = self.layout.labels.iter().filter(|(span, _)| rows.contains(&span.start));
+        let inside = within(&self.layout.labels, &rows);
         let other = |name: &&String| label.as_ref().is_none_or(|(label, _)| *label != **name);
-        let names = inside.map(|(_, name)| name).filter(other).cloned().collect();
+        let names = inside.iter().map(|(_, name)| name).filter(other).cloned().collect();
         Part { span: self.place(rows.clone()), label, names, rows }
     }
 
@@ -153,12 +153,9 @@ impl<'a> Display<'a> {
             [region] if has_numbered_rows(environment) => region.rows.clone(),
             _ => vec![0..self.content.len()],
         };
-        let own = |row: &Span| {
-            let silent = self.layout.silent.iter().any(|span| {
-                row.contains(&span.start) && self.text().get(span.clone()).is_some_and(|text| text.starts_with(r"\no"))
-            });
-            !silent && !self.layout.tags.iter().any(|(span, _)| row.contains(&span.start))
-        };
+        let unnumbered = |span: &&Span| self.text().get((*span).clone()).is_some_and(|text| text.starts_with(r"\no"));
+        let silent: Vec<(Span, ())> = self.layout.silent.iter().filter(unnumbered).map(|s| (s.clone(), ())).collect();
+        let own = |row: &Span| within(&silent, row).is_empty() && within(&self.layout.tags, row).is_empty();
         rows.into_iter().filter(own).map(|row| (row.start, counter.next())).collect()
     }
 
@@ -222,6 +219,13 @@ impl<'a> Display<'a> {
         let cell = text.get(..first_ampersand(text).unwrap_or(text.len())).unwrap_or_default();
         row.start + cell.trim_end().trim_end_matches([',', ';']).len()
     }
+}
+
+/// Those of some places, in order, that begin in a range.
+fn within<'s, T>(places: &'s [(Span, T)], range: &Span) -> &'s [(Span, T)] {
+    let first = places.partition_point(|(place, _)| place.start < range.start);
+    let behind = places.partition_point(|(place, _)| place.start < range.end);
+    places.get(first..behind).unwrap_or_default()
 }
 
 /// A display's content without the blanks and quote marks at its ends.

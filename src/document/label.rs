@@ -17,6 +17,7 @@
 
 use super::layout::{Layout, has_statements};
 use super::place::Span;
+use std::collections::HashSet;
 
 /// A label as printed; places are bytes of the display's content.
 #[derive(Clone, Debug, PartialEq)]
@@ -60,9 +61,10 @@ pub fn find(content: &str, layout: &Layout, regions: &[Region], previous: Option
             certain.push(Printed { label: label.clone(), row: row_at(regions, span.end - 1), span });
         }
     }
+    let mut tagged: HashSet<Option<(usize, usize)>> = certain.iter().map(|printed| printed.row).collect();
     for (span, label) in &layout.labels {
         let row = row_at(regions, span.start);
-        if !label.is_empty() && !certain.iter().any(|printed| printed.row == row) {
+        if !label.is_empty() && tagged.insert(row) {
             certain.push(Printed { label: label.clone(), span: span.clone(), row });
         }
     }

@@ -8,42 +8,56 @@
 //! label is printed a second time, that is a problem, and the second equation is called as if it had none.
 
 use super::assembly::{Assembly, Part};
-use super::files::Files;
+use super::files::{Beside, Files};
 use super::layout::trimmed;
 use super::place::Span;
+use super::references::Language;
 use super::scan::{Found, scan};
-use super::{Document, Item, Section};
-use crate::latex::expand::Definitions;
+use super::sidecar::Sidecar;
+use super::{Document, Section, dialect};
+use crate::latex::expand::Macros;
 use pulldown_cmark::{Event, Options, Parser, Tag, TagEnd};
 use std::path::Path;
-use std::sync::Arc;
 
-/// Reads notes from a Markdown text.
-pub fn parse(path: &Path, source: &str) -> Document {
-    let (found, problems) = scan(source, &code(source));
-    let mut parts = structure(source, &found);
-    parts.extend(found.into_iter().map(Part::Found));
+/// Reads notes from a Markdown text, with their sidecar.
+pub fn parse(path: &Path, source: &str, beside: &dyn Beside) -> Document {
+    let code = code(source);
+    let (mut found, mut problems) = scan(source, &code);
+    found.extend(dialect::fences(source, &code));
+    found.sort_by_key(|found| found.span().start);
+    dialect::name(source, &mut found);
+    let (definitions, places, in_force) = dialect::definitions(source, &code, &found);
+    let clean = dialect::blanked(source, &places);
+    let mut parts: Vec<Part> = in_force.into_iter().map(|(at, count)| Part::Defined(at, count)).collect();
+    parts.extend(structure(source, &found));
+    let unread = found
+        .iter()
+        .map(|found| found.span().clone())
+        .chain(code.iter().filter(|span| !is_role(source, span)).cloned());
+    let prose = dialect::blanked(source, &unread.collect::<Vec<_>>());
+    parts.extend(found.into_iter().filter(|found| !holds_nothing(&clean, found)).map(Part::Found));
     parts.sort_by_key(Part::start);
-    let mut assembly = Assembly::new(source, source, Files::single(path, source), Definitions::default(), problems);
+    let (mut whole, mut files) = (source.to_owned(), Files::single(path, source));
+    let macros = Macros::all(&definitions);
+    let sidecar = Sidecar::read(path, beside, &mut whole, &mut files, &macros, &mut problems);
+    let mut assembly = Assembly::new(&whole, &clean, files, definitions, problems).beside(sidecar);
     for part in parts {
         assembly.add(part);
     }
-    assembly.problems.sort_by_key(|problem| problem.span.start);
-    let name = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
-    let title = assembly.items.iter().find_map(|item| match item {
-        Item::Section(section) if section.level == 1 => Some(section.title.clone()),
-        _ => None,
-    });
-    Document {
-        title: title.unwrap_or_else(|| name.clone()),
-        name,
-        path: path.to_owned(),
-        source: Arc::from(source),
-        items: assembly.items,
-        problems: assembly.problems,
-        formulas: assembly.formulas,
-        files: assembly.files,
-    }
+    assembly.check_references(&prose, Language::Markdown);
+    let heading = assembly.highest_heading().filter(|section| section.level == 1).map(|section| section.title.clone());
+    assembly.document(path, dialect::title(source).or(heading))
+}
+
+/// Whether a code span is the label of one of MyST's references: `` {eq}`foo` ``.
+fn is_role(source: &str, code: &Span) -> bool {
+    source.get(..code.start).is_some_and(|before| before.ends_with("{eq}"))
+}
+
+/// Whether a display holds nothing but definitions.
+fn holds_nothing(clean: &str, found: &Found) -> bool {
+    let Found::Display { content, .. } = found else { return false };
+    clean.get(content.clone()).is_some_and(|content| content.trim().is_empty())
 }
 
 /// The code blocks and code spans of a Markdown text, in order.

@@ -2,7 +2,7 @@
 //!
 //! What is an equation, how it gets its label, and which annotation belongs to it is explained in [`markdown`],
 //! [`tex`], [`label`] and [`annotation`]. Notes may be written in several files (`\input`); a place in them is a byte of
-//! all of them together, see [`files`]. Promises:
+//! all of them together, in the order in which they are read, see [`files`]. Promises:
 //!
 //! - an equation's [`latex`](Equation::latex) is the notes' bytes at its [`span`](Equation::span), unchanged;
 //! - [`masked`](Equation::masked) has the same length in bytes, so that a place found in it is a place in the notes;
@@ -13,6 +13,7 @@
 pub mod annotation;
 mod assembly;
 pub mod declaration;
+mod dialect;
 mod display;
 pub mod files;
 pub mod label;
@@ -21,7 +22,9 @@ pub mod markdown;
 pub mod place;
 pub mod problem;
 mod read;
+mod references;
 mod scan;
+mod sidecar;
 pub mod tex;
 mod toml;
 
@@ -48,25 +51,18 @@ pub struct Document {
     pub path: PathBuf,
     /// The first heading of the first level, or else [`name`](Self::name).
     pub title: String,
-    /// All its files, one behind the other.
+    /// All its files, each in the place where it is included, the sidecar at the end.
     pub source: Arc<str>,
     /// What it holds, in the order in which it is read.
     pub items: Vec<Item>,
-    /// What is wrong with it, file by file, in the order of the file.
+    /// What is wrong with it, in that order, too.
     pub problems: Vec<Problem>,
-    /// The inline formulas, without their delimiters, in the order in which they are read.
-    pub formulas: Vec<InlineFormula>,
     /// Its files: that at [`path`](Self::path) first, then those it includes, then its sidecar.
     pub files: Files,
-}
-
-/// An inline formula.
-#[derive(Clone, Debug, PartialEq)]
-pub struct InlineFormula {
-    /// The bytes of its LaTeX, without delimiters.
-    pub span: Span,
-    /// The macros in force where it stands.
-    pub macros: Macros,
+    /// The inline formulas, without their delimiters, in the order in which they are read.
+    pub formulas: Vec<Span>,
+    /// Their LaTeX, comments left out and macros expanded.
+    expanded: Vec<String>,
 }
 
 /// A part of a document.
@@ -144,7 +140,14 @@ impl Document {
 
     /// The line and the column, in characters, of a byte of the notes in the file that holds it, both counted from 1.
     pub fn line_column(&self, offset: usize) -> (usize, usize) {
-        self.files.line_column(&self.source, offset)
+        self.files.line_column(offset)
+    }
+
+    /// The LaTeX of an inline formula, comments left out and macros expanded.
+    pub fn formula(&self, span: &Span) -> &str {
+        let index = self.formulas.binary_search_by_key(&span.start, |formula| formula.start);
+        let expanded = index.ok().and_then(|index| self.expanded.get(index));
+        expanded.map_or_else(|| self.source.get(span.clone()).unwrap_or_default(), String::as_str)
     }
 
     /// The file that holds a byte of the notes.

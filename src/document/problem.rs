@@ -1,6 +1,7 @@
 //! What is wrong with a document, in words for its author: what was found, what was expected, where, and what to do.
 
 use super::Document;
+use super::files::local;
 use super::place::Span;
 use miette::{LabeledSpan, MietteDiagnostic, NamedSource, Report};
 
@@ -81,18 +82,18 @@ impl Problem {
             diagnostic.message = harmless(&format!("{} ({})", self.message, self.location(document)));
             return Report::new(diagnostic);
         }
-        let file = document.files.at(self.span.start).map_or(0..document.source.len(), |file| file.span.clone());
-        let local = |span: &Span| span.start - file.start..span.end.min(file.end).max(span.start) - file.start;
-        let mut labels = vec![LabeledSpan::new_primary_with_span(self.label.clone(), local(&self.span))];
-        // A place in another file cannot be shown beside this one: it is told in words.
-        let (here, elsewhere): (Vec<_>, Vec<_>) =
-            self.other.iter().partition(|(span, _)| file.start <= span.start && span.start <= file.end);
-        labels.extend(here.iter().map(|(span, label)| LabeledSpan::new_with_span(Some(label.clone()), local(span))));
-        for (span, label) in elsewhere {
-            diagnostic.message += &harmless(&format!("; {label}: {}", place(document, span)));
+        let (file, span) = local(&document.files, &self.span);
+        let mut labels = vec![LabeledSpan::new_primary_with_span(self.label.clone(), span)];
+        if let Some((other, label)) = &self.other {
+            // A place in another file cannot be shown beside this one: it is told in words.
+            match local(&document.files, other) {
+                (same, span) if same == file => labels.push(LabeledSpan::new_with_span(Some(label.clone()), span)),
+                _ => diagnostic.message += &harmless(&format!("; {label}: {}", place(document, other))),
+            }
         }
-        let text = document.source.get(file.clone()).unwrap_or_default();
-        let source = NamedSource::new(harmless(&document.file(file.start).to_string_lossy()), harmless(text));
+        let shown = document.files.at(self.span.start);
+        let text = shown.map_or("", |file| &file.text);
+        let source = NamedSource::new(harmless(&document.file(self.span.start).to_string_lossy()), harmless(text));
         Report::new(diagnostic.with_labels(labels)).with_source_code(source)
     }
 
@@ -104,7 +105,7 @@ impl Problem {
         }
         if let Some((span, label)) = &self.other {
             let (line, column) = document.line_column(span.start);
-            let same = document.files.number(span.start) == document.files.number(self.span.start);
+            let same = document.files.place(span.start).0 == document.files.place(self.span.start).0;
             let file = if same { String::new() } else { format!("{}, ", document.file(span.start).display()) };
             text += &format!("; {label} ({file}line {line}, column {column})");
         }

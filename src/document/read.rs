@@ -134,6 +134,6 @@ pub fn parse_beside(path: &Path, source: &str, beside: &dyn Beside) -> Document 
     let extension = path.extension().map(|extension| extension.to_string_lossy().to_lowercase());
     match extension.as_deref() {
         Some("tex" | "ltx" | "latex") => tex::parse(path, source, beside),
-        _ => markdown::parse(path, source),
+        _ => markdown::parse(path, source, beside),
     }
 }

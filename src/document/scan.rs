@@ -27,6 +27,8 @@ pub(super) enum Found {
         content: Span,
         /// The environment, for `\begin{align}` and the like.
         environment: Option<String>,
+        /// The label that stands beside it, as in `$$ .. $$ {#eq-foo}`, and its place.
+        name: Option<(String, Span)>,
     },
     /// An HTML comment.
     Comment {
@@ -164,8 +166,10 @@ impl<'a> Scanner<'a> {
                 self.problems.push(problem.help("write the formula, or remove the display"));
                 Found::Broken { span }
             }
-            Opener::Environment(name) => Found::Display { span, content, environment: Some(name.to_owned()) },
-            _ => Found::Display { span, content, environment: None },
+            Opener::Environment(name) => {
+                Found::Display { span, content, environment: Some(name.to_owned()), name: None }
+            }
+            _ => Found::Display { span, content, environment: None, name: None },
         });
         end
     }

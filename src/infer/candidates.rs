@@ -6,7 +6,7 @@ use crate::check::{Book, Formula, Version};
 use crate::document::{Document, Span};
 use crate::expr::SymId;
 use crate::latex::ast::{Kind, Node, Rel};
-use crate::semantics::{self, Clause, Scope, Side, World};
+use crate::semantics::{self, Clause, Elaborator, Scope, Side, World};
 
 use super::evidence::is_name;
 
@@ -32,6 +32,8 @@ pub struct Candidate {
 pub enum Origin {
     /// A display: its number in the book and its label.
     Display(usize, String),
+    /// What can be read of a display: its number in the book, its label, and the LaTeX.
+    Part(usize, String, String),
     /// An inline formula: its LaTeX.
     Inline(String),
 }
@@ -41,8 +43,16 @@ pub fn candidates(book: &Book, document: &Document) -> Vec<Candidate> {
     let mut found = Vec::new();
     for (index, entry) in book.entries.iter().enumerate() {
         let Ok(statement) = book.statement(index, Version::Printed) else { continue };
-        let origin = Origin::Display(index, entry.equation.label.clone());
-        found.extend(candidate(origin, entry.equation.span.clone(), &entry.scope, &statement.clauses));
+        let (label, span) = (entry.equation.label.clone(), entry.equation.span.clone());
+        let origin = Origin::Display(index, label.clone());
+        let whole = candidate(origin, span.clone(), &entry.scope, &statement.clauses);
+        if whole.is_some() {
+            found.extend(whole);
+            continue;
+        }
+        for (latex, clauses) in readable(&entry.scope, &statement.clauses) {
+            found.extend(candidate(Origin::Part(index, label.clone(), latex), span.clone(), &entry.scope, &clauses));
+        }
     }
     for (span, formula) in inline(document) {
         let Some(scope) = scope_at(book, span.start) else { continue };
@@ -54,12 +64,35 @@ pub fn candidates(book: &Book, document: &Document) -> Vec<Candidate> {
     found
 }
 
+/// What is said by the sides of a chain of equalities that can be understood, where others cannot: of W = ∫ .. = a = b
+/// it is W = a and a = b.
+fn readable(scope: &Scope, clauses: &[Clause]) -> Vec<(String, Vec<Clause>)> {
+    let mut found = Vec::new();
+    let mut last: Option<Node> = None;
+    for (k, clause) in clauses.iter().enumerate() {
+        let chained = k > 0 && clauses[k - 1].rhs == Side::Node(clause.lhs.clone());
+        if !chained {
+            last = Some(clause.lhs.clone()).filter(|n| is_readable(scope, n));
+        }
+        let Side::Node(rhs) = &clause.rhs else { continue };
+        if !matches!(clause.rel, Rel::Eq | Rel::Equiv) || !is_readable(scope, rhs) {
+            continue;
+        }
+        if let Some(lhs) = last.replace(rhs.clone()) {
+            let clause = Clause { lhs, ..clause.clone() };
+            found.push((clause.latex(), vec![clause]));
+        }
+    }
+    found
+}
+
+fn is_readable(scope: &Scope, node: &Node) -> bool {
+    Elaborator::new(&mut World::new(), scope, Vec::new(), true).value(node).is_ok()
+}
+
 /// The inline formulas of a document with their places, their macros expanded.
 pub fn inline(document: &Document) -> impl Iterator<Item = (Span, Formula)> {
-    document.formulas.iter().map(|inline| {
-        let latex = document.source.get(inline.span.clone()).unwrap_or_default();
-        (inline.span.clone(), Formula::with_macros(latex, &inline.macros))
-    })
+    document.formulas.iter().map(|span| (span.clone(), Formula::new(document.formula(span))))
 }
 
 /// The declarations in force where an inline formula stands: those of the display before it, or of the first one.

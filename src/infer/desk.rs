@@ -3,7 +3,7 @@
 use std::collections::BTreeSet;
 
 use crate::check::verdict::{LinkJudgement, Verdict};
-use crate::check::{self, Book, Options, Outcome, Trial, Version, judge_one};
+use crate::check::{self, Book, Options, Outcome, Screen, Sight, Trial, Version, judge_one};
 use crate::diagnose::is_null;
 use crate::diagnose::mutants::{Reach, mutants};
 use crate::document::{EquationAnnotation, LinkPremises, Spanned};
@@ -16,6 +16,9 @@ use super::candidates::{Candidate, Origin};
 const FEW: usize = 2;
 /// How many mutants show that what follows could have failed.
 const MUTANTS: usize = 12;
+
+/// How many of them must be no solutions.
+const SOLUTION_FAILS: usize = 2;
 
 /// What a link is judged on.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -35,7 +38,7 @@ impl Basis {
     /// The basis in words: labels, and inline formulas between dollars.
     pub fn names(&self, all: &[Candidate]) -> Vec<String> {
         let name = |k: &usize| match &all[*k].source {
-            Origin::Display(_, label) => label.clone(),
+            Origin::Display(_, label) | Origin::Part(_, label, _) => label.clone(),
             Origin::Inline(latex) => format!("${latex}$"),
         };
         self.solves.iter().cloned().chain(self.premises.iter().map(name)).collect()
@@ -73,7 +76,9 @@ impl Desk<'_> {
         for candidate in basis.premises.iter().map(|k| &self.all[*k]) {
             match &candidate.source {
                 Origin::Display(_, label) => premises.given.push(text(label, candidate.span.start)),
-                Origin::Inline(latex) => premises.where_.push(text(latex, candidate.span.start)),
+                Origin::Part(_, _, latex) | Origin::Inline(latex) => {
+                    premises.where_.push(text(latex, candidate.span.start))
+                }
             }
         }
         annotation.link.retain(|l| l.number != self.link + 1);
@@ -99,7 +104,29 @@ impl Desk<'_> {
     /// failed.
     pub fn follows(&self) -> bool {
         let few = Options { states: FEW.min(self.options.states), evidence: false, ..self.options.clone() };
-        self.holds(&few) && self.holds(&Options { evidence: false, ..self.options.clone() }) && self.could_fail()
+        self.holds(&few)
+            && !self.vanishes()
+            && self.holds(&Options { evidence: false, ..self.options.clone() })
+            && self.could_fail()
+    }
+
+    /// Whether both sides are 0 on the premises though none is printed as 0: premises that do not belong together often
+    /// leave nothing else.
+    fn vanishes(&self) -> bool {
+        let clauses = self.clauses();
+        let Some(clause) = clauses.get(self.link).filter(|_| !self.is_solution()) else { return false };
+        let Side::Node(rhs) = &clause.rhs else { return false };
+        if is_null(&clause.lhs) || is_null(rhs) {
+            return false;
+        }
+        let known: Vec<Clause> = self.taken.iter().filter_map(|k| clauses.get(*k)).cloned().collect();
+        let own = std::slice::from_ref(clause);
+        let screen = Screen::new(self.book, self.index, Version::Printed, own, &known, self.options);
+        let Some(mut screen) = screen else { return false };
+        match (screen.side(&clause.lhs, &clause.rhs, true), screen.size(&clause.lhs, &clause.rhs, false)) {
+            (Sight::Values(values), Some(size)) => values.iter().all(|v| v.abs() <= 1e-9 * size.max(1e-300)),
+            _ => false,
+        }
     }
 
     fn is_solution(&self) -> bool {
@@ -162,7 +189,8 @@ impl Desk<'_> {
                 _ => {}
             }
         }
-        2 * pass <= fail
+        // A solution has constants of its own, which may be anything.
+        if self.is_solution() { fail >= SOLUTION_FAILS } else { 2 * pass <= fail }
     }
 
     /// The first basis from which the link follows, made as small as it can be and left on the desk.

@@ -2,10 +2,10 @@
 
 use std::collections::BTreeSet;
 
-use crate::check::verdict::{Inferred, Judgement, LinkJudgement, Strength, Verdict};
+use crate::check::verdict::{Inferred, InferredLink, Judgement, LinkJudgement, Strength, Verdict};
 use crate::check::{self, Book, Options};
 use crate::document::{Document, Spanned};
-use crate::semantics::{Clause, spelling};
+use crate::semantics::{Clause, Side, spelling};
 
 use super::candidates::{Candidate, Spoken, candidates};
 use super::desk::{Basis, Desk};
@@ -19,9 +19,9 @@ pub struct Ground {
     /// All formulas that may be premises.
     pub candidates: Vec<Candidate>,
     /// For each equation those that the prose around it names.
-    named: Vec<BTreeSet<usize>>,
+    pub(super) named: Vec<BTreeSet<usize>>,
     /// The guessed roles.
-    guesses: Vec<Guess>,
+    pub(super) guesses: Vec<Guess>,
 }
 
 impl Ground {
@@ -58,7 +58,7 @@ impl Ground {
         for link in failing {
             desk.link = link;
             if desk.search(&self.bases(&desk, &clauses)).is_none() {
-                if !clauses[link].continued {
+                if !is_chained(&clauses, link) {
                     desk.taken.push(link);
                 }
                 open.push(link);
@@ -99,7 +99,8 @@ impl Ground {
 
     /// Whether the equation solves one before it.
     fn solution(&self, desk: &mut Desk, clauses: &[Clause], open: &[usize]) -> bool {
-        let Some(link) = open.iter().copied().find(|k| !clauses[*k].continued) else { return false };
+        // Put into what it solves, an equation is not judged by itself: what else it says would not be.
+        let (&[link], [_]) = (open, clauses) else { return false };
         desk.link = link;
         let unknown = spelling(&clauses[link].lhs);
         let Some((nearby, target)) = self.nearby(desk, clauses) else { return false };
@@ -149,6 +150,12 @@ impl Ground {
     }
 }
 
+/// Whether a link goes on where the one before it ends, as b = c in a = b = c.
+fn is_chained(clauses: &[Clause], link: usize) -> bool {
+    let before = link.checked_sub(1).and_then(|k| clauses.get(k));
+    before.is_some_and(|before| before.rhs == Side::Node(clauses[link].lhs.clone())) || clauses[link].continued
+}
+
 /// Whether a link fails at states, and not by its shape.
 fn fails(link: &LinkJudgement) -> bool {
     link.verdict == Verdict::Fails && link.strength != Some(Strength::Shape)
@@ -176,12 +183,16 @@ fn misshapen(mut judgement: Judgement) -> Judgement {
 /// The judgement with the premises that were found. What follows from nothing is new; but a link that continues another
 /// one was to follow.
 fn conclude(desk: &mut Desk, clauses: &[Clause], open: &[usize]) -> Judgement {
-    let new = !open.is_empty() && open.iter().all(|k| !clauses[*k].continued);
+    let new = !open.is_empty() && open.iter().all(|k| !is_chained(clauses, *k));
     desk.say_kind(new.then_some("law"));
     let mut judgement = check::judge(desk.book, desk.index, desk.options);
-    let links = desk.book.entries[desk.index].annotation().into_iter().flat_map(|a| &a.link);
+    let annotation = desk.book.entries[desk.index].equation.annotation.get_or_insert_default();
     let values = |texts: &[Spanned<String>]| texts.iter().map(|t| t.value.clone()).collect::<Vec<String>>();
-    let links = links.map(|l| (l.number, values(&l.given), values(&l.where_))).collect();
+    let solves = values(&annotation.solves);
+    let whole = (0, values(&annotation.given), values(&annotation.where_));
+    let links = annotation.link.iter().map(|l| (l.number, values(&l.given), values(&l.where_)));
+    let links = std::iter::once(whole).filter(|_| !solves.is_empty()).chain(links);
+    let links = links.map(|(number, given, formulas)| InferredLink { number, given, formulas }).collect();
     let once = |mut names: Vec<String>| {
         let mut seen = BTreeSet::new();
         names.retain(|n| seen.insert(n.clone()));
@@ -190,7 +201,7 @@ fn conclude(desk: &mut Desk, clauses: &[Clause], open: &[usize]) -> Judgement {
     judgement.given = once(judgement.given);
     judgement.assumptions = once(judgement.assumptions);
     let (given, formulas) = (judgement.given.clone(), judgement.assumptions.clone());
-    judgement.inferred = Some(Inferred { given, formulas, new: !open.is_empty(), needs: Vec::new(), links });
+    judgement.inferred = Some(Inferred { given, formulas, solves, new: !open.is_empty(), needs: Vec::new(), links });
     for k in open {
         let Some(link) = judgement.links.get_mut(*k) else { continue };
         if link.verdict == Verdict::Definition {

@@ -11,7 +11,8 @@
 
 mod candidates;
 mod desk;
-mod evidence;
+pub mod evidence;
+mod fingerprint;
 mod formulas;
 mod judge;
 mod premises;
@@ -23,3 +24,6 @@ mod suspects;
 
 pub use formulas::declare_functions;
 pub use judge::Ground;
+
+#[cfg(test)]
+mod tests;

@@ -24,10 +24,11 @@ pub fn nearby(book: &Book, index: usize, all: &[Candidate], named: &BTreeSet<usi
     let own = &book.entries[index].equation.span;
     let next = book.entries.iter().skip(index + 1).map(|e| e.equation.span.start).find(|start| *start >= own.end);
     let usable = |c: &Candidate| match &c.source {
-        Origin::Display(k, _) => *k < index,
+        Origin::Display(k, _) | Origin::Part(k, _, _) => *k < index,
         Origin::Inline(_) => next.is_none_or(|next| c.span.start < next) && !own.contains(&c.span.start),
     };
-    let is_named = |c: &Candidate| matches!(&c.source, Origin::Display(k, _) if named.contains(k));
+    let is_named =
+        |c: &Candidate| matches!(&c.source, Origin::Display(k, _) | Origin::Part(k, _, _) if named.contains(k));
     let mut found: Vec<usize> = (0..all.len()).filter(|k| usable(&all[*k])).collect();
     found.sort_by_key(|k| (!is_named(&all[*k]), all[*k].span.start.abs_diff(own.start)));
     // What no chain of shared symbols leads to says nothing.

@@ -1,6 +1,7 @@
 //! How many equations have which verdict.
 
 use crate::check::verdict::{Judgement, Strength, Verdict};
+use schemars::JsonSchema;
 use serde::Serialize;
 
 /// All verdicts, in the order in which reports list them.
@@ -15,7 +16,7 @@ pub(super) const ORDER: [Verdict; 7] = [
 ];
 
 /// How many equations have which verdict.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, JsonSchema)]
 pub struct Counts {
     /// All equations.
     pub total: usize,

@@ -102,6 +102,15 @@ impl Elaborator<'_> {
             let det = value::determinant(&mut self.world.graph, m);
             return Ok(Typed::new(Value::Scalar(det), format!("det({})", argument.text)));
         }
+        if let (Value::Matrix(m), "tr" | "Tr" | "trace") = (&argument.value, name) {
+            if m.rows != m.cols {
+                return Err(Error::shape(format!("the trace of {}", argument.value.shape()), span));
+            }
+            let graph = &mut self.world.graph;
+            let zero = graph.int(0);
+            let sum = (0..m.rows).fold(zero, |sum, k| graph.add(sum, m.data[k * m.cols + k]));
+            return Ok(Typed::new(Value::Scalar(sum), format!("tr({})", argument.text)));
+        }
         if let (Value::Tuple(items), "max" | "min") = (&argument.value, name) {
             return self.extreme(items, name == "max", span);
         }

@@ -86,8 +86,12 @@ impl Elaborator<'_> {
             None => self.unbound_indices(body),
         };
         if letters.is_empty() {
-            return Err(Error::undeclared("this sum names no declared index", span)
-                .with_help("declare the index under [symbols], as in 'i' = { index = [1, 3] }"));
+            let missing = sub.map(|sub| match &sub.kind {
+                Kind::Chain { first: Some(first), .. } => spelling(first),
+                _ => spelling(sub),
+            });
+            let error = Error { missing, ..Error::undeclared("this sum names no declared index", span) };
+            return Err(error.with_help("declare the index under [symbols], as in 'i' = { index = [1, 3] }"));
         }
         let all = assignments(self.scope, &letters, span)?;
         match sub {

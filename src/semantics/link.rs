@@ -150,6 +150,9 @@ fn meet(elaborator: &mut Elaborator, lhs: Value, rhs: Value, clause: &Clause) ->
         (Value::Scalar(a), Value::Scalar(b)) => (Value::Scalar(a), Value::Scalar(b)),
         (Value::Scalar(a), Value::Complex(re, im)) => (Value::Complex(a, zero), Value::Complex(re, im)),
         (Value::Complex(re, im), Value::Scalar(b)) => (Value::Complex(re, im), Value::Complex(b, zero)),
+        // A row times a column is a number.
+        (lhs @ Value::Scalar(_), Value::Matrix(m)) if m.data.len() == 1 => (lhs, Value::Scalar(m.data[0])),
+        (Value::Matrix(m), rhs @ Value::Scalar(_)) if m.data.len() == 1 => (Value::Scalar(m.data[0]), rhs),
         (lhs, rhs) if rhs.is_zero_scalar(&elaborator.world.graph) => {
             let null = lhs.map(&mut |_| zero);
             (lhs, null)

@@ -153,7 +153,7 @@ fn labels_that_are_only_attached_must_continue_the_sequence() {
 fn the_title_is_the_first_heading_of_the_first_level() {
     assert_eq!(parse("## Sub\n\n# On $x$ and *y* `z`<!-- a -->\n\n# Other").title, "On $x$ and y z");
     assert_eq!(parse("\u{feff}# BOM\n").title, "BOM");
-    assert_eq!(parse("---\ntitle: x\n---\n\ntext").title, "notes");
+    assert_eq!(parse("---\ntitle: x\n---\n\ntext").title, "x");
     assert_eq!(parse("$$a$$\n---\n").items.len(), 1, "a display over a rule is no heading");
 }
 

@@ -158,11 +158,32 @@ fn large_input_takes_no_more_than_linear_time() {
         "~",
         "\\quad",
         "$$ > \n",
+        "\\(",
+        "\\(a\\) ",
+        "\\label{",
+        "\\eqref{a}",
+        "\\newcommand{",
+        "\\newcommand\\a{b}$$\\a$$ ",
+        "\\def\\a#1{",
+        "\\input{a}",
+        "\\begin{verbatim}",
+        "\\verb|a",
+        "\\section{",
+        "%",
+        "%!a=1\n",
+        "@eq",
+        "Eq. (1",
+        "{eq}`",
+        "\\begin{align}a\\label{b}\\\\",
+        "a\\label{b}\\\\",
+        "\\begin{equation}a\\end{equation}",
     ] {
         let source = unit.repeat(size / unit.len());
         let start = Instant::now();
         let document = parse(&source);
         let inside = parse(&format!("$$ {} $$", source.replace("$$", "")));
+        let _ = super::super::parse(Path::new("notes.tex"), &format!("\\begin{{align}} {source}"));
+        let _ = super::super::parse(Path::new("notes.tex"), &format!("\\begin{{align}} {source} \\end{{align}}"));
         assert!(start.elapsed() < Duration::from_secs(10), "{unit:?} took {:?}", start.elapsed());
         println!("{unit:?}: {:?}, {} and {} items", start.elapsed(), document.items.len(), inside.items.len());
     }

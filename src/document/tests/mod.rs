@@ -1,11 +1,13 @@
 //! Tests of the whole reader.
 
 mod annotations;
+mod dialects;
 mod displays;
 mod files;
 mod hostile;
 mod messages;
 mod originals;
+mod sidecar;
 mod tex;
 
 use super::*;

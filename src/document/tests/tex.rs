@@ -13,7 +13,7 @@ impl Beside for Folder {
     }
 }
 
-fn folder(files: &[(&str, &str)]) -> Document {
+pub fn folder(files: &[(&str, &str)]) -> Document {
     let texts = files.iter().map(|(path, text)| (PathBuf::from(path), (*text).to_owned())).collect();
     let (main, text) = files[0];
     let document = parse_beside(Path::new(main), text, &Folder(texts));
@@ -178,4 +178,18 @@ fn numbers_follow_the_counter() {
          \\section{C}\\setcounter{equation}{6}\\begin{equation}\\label{c}c\\end{equation}",
     );
     assert_eq!(found(&document), ["1.1 [1.1] a", "1.2 [1.2] b", "c [2.7] c"]);
+}
+
+#[test]
+fn references_to_labels_that_do_not_exist_are_warnings() {
+    let body = "\\section{A}\\label{sec:a}\\begin{equation}\\label{eq:one}a\\end{equation}\n\\begin{figure}\\label{fig:b}\\end{figure}\n\
+                See \\eqref{eq:one}, \\ref{sec:a}, \\cref{fig:b,eq:on}, Eq.~(1), \\eqref{eq:two} % \\eqref{no}\n";
+    let document = article(body);
+    let told: Vec<_> = document.problems.iter().map(|p| p.message.as_str()).collect();
+    assert_eq!(told, ["there is no equation `eq:on`", "there is no equation `eq:two`"]);
+    assert_eq!(
+        article(&format!("{body} \\input{{missing}}")).problems.len(),
+        1,
+        "a file is missing that may hold them"
+    );
 }

@@ -2,6 +2,7 @@
 
 use super::super::Section;
 use super::super::assembly::Part;
+use super::super::dialect::near;
 use super::super::problem::Problem;
 use super::number::Counted;
 use super::reader::Reader;
@@ -71,8 +72,8 @@ impl Reader<'_> {
         for name in text.get(names).unwrap_or_default().split(',').map(str::trim).filter(|name| !name.is_empty()) {
             self.definitions.load(name);
             let candidates = self.candidates(Path::new(&format!("{name}.sty")));
-            if let Some((path, content)) = self.find(candidates) {
-                self.file(&path, &content);
+            if self.reading.len() < DEEPEST && self.count < MOST_FILES {
+                self.included.extend(self.find(candidates));
             }
         }
         end
@@ -99,8 +100,8 @@ impl Reader<'_> {
         } else if self.reading.len() >= DEEPEST || self.count >= MOST_FILES {
             let message = format!("at most {MOST_FILES} files are read, {DEEPEST} deep");
             self.problems.push(problem(message, "verify the parts of the notes on their own"));
-        } else if let Some((path, content)) = self.find(candidates) {
-            self.file(&path, &content);
+        } else if let Some(found) = self.find(candidates) {
+            self.included.push(found);
         } else if !self.in_preamble || text.get(at..).is_some_and(|rest| !rest.contains('@')) {
             let message = format!("there is no file `{}`", with_extension.display());
             let help = "files are looked for beside the main file and beside the file that includes them";
@@ -154,7 +155,7 @@ pub(super) fn verb(text: &str, from: usize) -> usize {
     let rest = text.get(from..).unwrap_or_default();
     let Some(mark) = rest.chars().next().filter(|mark| !mark.is_alphanumeric()) else { return from };
     let closing = if mark == '{' { '}' } else { mark };
-    let line = rest.lines().next().unwrap_or_default();
+    let line = near(rest, 0, 500).lines().next().unwrap_or_default();
     let inside = line.get(mark.len_utf8()..).unwrap_or_default();
     inside.find(closing).map_or(from, |end| from + mark.len_utf8() + end + closing.len_utf8())
 }

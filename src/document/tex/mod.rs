@@ -17,38 +17,31 @@ pub mod number;
 mod reader;
 mod words;
 
+use super::Document;
 use super::assembly::Assembly;
 use super::files::Beside;
-use super::{Document, Item};
+use super::references::Language;
+use super::sidecar::Sidecar;
+use crate::latex::expand::Macros;
 use reader::Reader;
 use std::path::Path;
-use std::sync::Arc;
 
 /// Reads notes from a LaTeX text, with the files that it includes.
 pub fn parse(path: &Path, source: &str, beside: &dyn Beside) -> Document {
     let mut reader = Reader::new(path, beside);
     reader.file(path, source);
     let clean = reader.clean();
-    let mut assembly = Assembly::new(&reader.source, &clean, reader.files, reader.definitions, reader.problems)
-        .counting(number::Counter::default());
-    for part in reader.parts {
+    let Reader { mut source, mut files, definitions, mut problems, parts, title, .. } = reader;
+    let missing = problems.iter().any(|problem| problem.code == "document::input");
+    let macros = Macros::all(&definitions);
+    let sidecar = Sidecar::read(path, beside, &mut source, &mut files, &macros, &mut problems);
+    let mut assembly = Assembly::new(&source, &clean, files, definitions, problems)
+        .counting(number::Counter::default())
+        .beside(sidecar);
+    for part in parts {
         assembly.add(part);
     }
-    assembly.problems.sort_by_key(|problem| problem.span.start);
-    let name = path.file_stem().map(|stem| stem.to_string_lossy().into_owned()).unwrap_or_default();
-    let headings = assembly.items.iter().filter_map(|item| match item {
-        Item::Section(section) => Some(section),
-        _ => None,
-    });
-    let highest = headings.min_by_key(|section| section.level).map(|section| section.title.clone());
-    Document {
-        title: reader.title.or(highest).unwrap_or_else(|| name.clone()),
-        name,
-        path: path.to_owned(),
-        items: assembly.items,
-        formulas: assembly.formulas,
-        problems: assembly.problems,
-        files: assembly.files,
-        source: Arc::from(reader.source),
-    }
+    assembly.check_references(&clean, Language::Latex { complete: !missing });
+    let highest = assembly.highest_heading().map(|section| section.title.clone());
+    assembly.document(path, title.or(highest))
 }

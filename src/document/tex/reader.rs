@@ -20,6 +20,8 @@ pub(super) struct Reader<'a> {
     pub(super) folder: PathBuf,
     pub(super) reading: Vec<PathBuf>,
     pub(super) count: usize,
+    /// Files that are to be read next.
+    pub(super) included: Vec<(PathBuf, String)>,
     /// What is no part of the notes.
     pub(super) blank: Vec<Span>,
     /// Whether definitions have been read since the last part.
@@ -51,6 +53,7 @@ impl<'a> Reader<'a> {
             folder: path.parent().map(Path::to_owned).unwrap_or_default(),
             reading: Vec::new(),
             count: 0,
+            included: Vec::new(),
             blank: Vec::new(),
             has_defined: false,
             definitions: Definitions::default(),
@@ -76,25 +79,32 @@ impl<'a> Reader<'a> {
         String::from_utf8(bytes).unwrap_or_else(|_| self.source.clone())
     }
 
-    /// Reads a file.
+    /// Reads a file. What it includes is put in the place of the line that says so.
     pub(super) fn file(&mut self, path: &Path, text: &str) {
-        if !self.source.is_empty() {
-            self.source.push('\n');
-        }
-        let base = self.source.len();
-        self.source.push_str(text);
-        self.files.push(path, base, text);
+        let number = self.files.add(path, text);
         self.count += 1;
         if self.reading.is_empty() {
             self.in_preamble = text.contains(r"\begin{document}");
         }
         self.reading.push(path.to_owned());
-        let mut at = 0;
+        self.files.piece(self.source.len(), number, 0);
+        // Up to `copied` the text stands in the source; byte `at` of the text is byte `base + at` of the source.
+        let (mut at, mut copied, mut base) = (0, 0, self.source.len());
         while let Some(ahead) = text.get(at..).filter(|_| !self.ended).and_then(|rest| rest.find(['\\', '%', '$'])) {
             at += ahead;
             at = self.at(text, base, at).max(at + 1);
             at = (at..=text.len()).find(|at| text.is_char_boundary(*at)).unwrap_or(text.len());
+            if self.included.is_empty() {
+                continue;
+            }
+            self.source.push_str(text.get(copied..at).unwrap_or_default());
+            for (path, content) in std::mem::take(&mut self.included) {
+                self.file(&path, &content);
+            }
+            self.files.piece(self.source.len(), number, at);
+            (copied, base) = (at, self.source.len() - at);
         }
+        self.source.push_str(text.get(copied..).unwrap_or_default());
         self.reading.pop();
     }
 
@@ -198,7 +208,7 @@ impl<'a> Reader<'a> {
             self.push(Part::Found(Found::Broken { span }));
         } else {
             let content = base + inner..base + close;
-            self.push(Part::Found(Found::Display { span, content, environment }));
+            self.push(Part::Found(Found::Display { span, content, environment, name: None }));
         }
         close + length
     }
@@ -232,10 +242,10 @@ impl<'a> Reader<'a> {
     /// Reports a display that is not closed and passes over it, up to the next blank line; where to go on.
     fn unclosed(&mut self, text: &str, base: usize, at: usize, inner: usize) -> usize {
         let rest = text.get(inner..).unwrap_or_default();
-        let blank = rest.find("\n\n").or_else(|| rest.find("\n\r\n")).unwrap_or(rest.len());
         let opens = |offset: usize| self.opener(rest.get(offset..).unwrap_or_default()).is_some();
         let next = rest.match_indices(['\\', '$']).map(|(offset, _)| offset).find(|offset| opens(*offset));
-        let end = inner + blank.min(next.unwrap_or(rest.len()));
+        let near = rest.get(..next.unwrap_or(rest.len())).unwrap_or_default();
+        let end = inner + near.find("\n\n").or_else(|| near.find("\n\r\n")).unwrap_or(near.len());
         let problem = Problem::error("document::unclosed", "this display is not closed", base + at..base + inner);
         self.problems.push(
             problem.label("opened here").help("close it; it has been passed over up to the next blank line or display"),
@@ -260,7 +270,7 @@ impl<'a> Reader<'a> {
             let is_blank_line = here
                 .strip_prefix('\n')
                 .is_some_and(|line| line.trim_start_matches([' ', '\t', '\r']).starts_with('\n'));
-            if is_blank_line || here.starts_with('$') {
+            if is_blank_line || here.starts_with('$') || here.starts_with(r"\(") {
                 break;
             }
             end += if here.starts_with('\\') { words::escaped(here) } else { 1 };

@@ -7,7 +7,7 @@ use super::lexer::{Kind, lex};
 use super::{Macro, Parameter};
 
 /// The longest definition that is read, in bytes.
-const LONGEST: usize = 1 << 14;
+const LONGEST: usize = 1 << 12;
 
 /// A macro with its name.
 #[derive(Clone, Debug, PartialEq)]
