@@ -22,11 +22,24 @@ const BUDGET: Duration = Duration::from_secs(2);
 
 /// The Markdown reader: places lie within the file, and what is wrong can be told.
 pub fn markdown(data: &[u8]) {
+    notes(Path::new("notes.md"), data);
+}
+
+/// The reader of LaTeX documents, with their macros.
+pub fn tex(data: &[u8]) {
+    notes(Path::new("notes.tex"), data);
+}
+
+fn notes(path: &Path, data: &[u8]) {
     let Ok(text) = std::str::from_utf8(data) else { return };
-    let document = document::parse(Path::new("notes.md"), text);
+    let document = document::parse(path, text);
     for equation in document.equations() {
         assert_eq!(document.source.get(equation.span.clone()), Some(equation.latex.as_str()), "the bytes at its span");
         assert_eq!(equation.masked.len(), equation.latex.len(), "a place in one is a place in the other");
+        match equation.macros.expand(&equation.masked) {
+            Ok(expanded) => assert!(expanded.place(&(0..expanded.text.len())).end <= equation.masked.len()),
+            Err(error) => assert!(equation.masked.get(error.span).is_some(), "a place in the formula"),
+        }
     }
     tell_problems(&document);
 }
@@ -91,8 +104,7 @@ pub fn pipeline(data: &[u8]) {
     let run = verify::run(&verified, &request, Instant::now());
     let options = report::Options { times: false, ..report::Options::default() };
     let pages = html::pages(&run, options).expect("the templates fit all data");
-    let page: String = pages.into_iter().map(|page| page.html).collect();
     json::render(&run, options).expect("all data are JSON");
     terminal::render(&run, true, options);
-    assert!(page.ends_with("</html>\n"), "the page is whole");
+    assert!(pages.iter().all(|page| page.html.ends_with("</html>\n")), "the pages are whole");
 }

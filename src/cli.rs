@@ -1,6 +1,7 @@
 //! The command line: arguments, progress, exit codes.
 
 mod explain;
+mod init;
 mod lsp;
 mod options;
 mod scene;
@@ -48,6 +49,10 @@ enum Command {
     Lsp(lsp::Arguments),
     /// Show how one equation is read and what it is at three states.
     Explain(explain::Arguments),
+    /// Write a scaffold of annotations for notes that have none.
+    Init(init::Init),
+    /// List the symbols of notes, and what is odd about them.
+    Symbols(init::Symbols),
     /// Search where the formulas of the notes lose their digits, and forms that do not.
     Stability(stability::Arguments),
     /// Measure what accuracy costs in each scene, model by model.
@@ -81,6 +86,8 @@ pub fn main() -> ExitCode {
         Command::Explain(arguments) => explain::run(&arguments),
         Command::Stability(arguments) => in_pool(arguments.jobs, || done(stability::run(&arguments))),
         Command::Speed(arguments) => in_pool(None, || done(speed::run(&arguments))),
+        Command::Init(arguments) => in_pool(None, || done(init::init(&arguments))),
+        Command::Symbols(arguments) => in_pool(None, || done(init::symbols(&arguments))),
         Command::Scene(arguments) => scene::run(&arguments),
         Command::Schema => done(schema()),
         Command::Completions(arguments) => done(shell::completions(&arguments)),

@@ -7,11 +7,11 @@ use crate::check::verdict::{DimensionStatus, Judgement};
 use crate::check::{self, Book, Options, Version, inspect::Inspection};
 use crate::document::Document;
 
-/// Explains the equation of a label: how it was read, what it rests on, its sides at three states, the verdict. `None`
+/// Explains the equation of a label or a number: how it was read, what it rests on, its sides at three states, the verdict. `None`
 /// where there is no such label.
 pub fn explain(document: &Document, label: &str, options: &Options) -> Option<String> {
     let book = Book::new(document);
-    let (index, _) = book.find(label).filter(|(index, _)| book.entries[*index].equation.label == label)?;
+    let (index, _) = book.find(label).filter(|(index, _)| book.entries[*index].equation.is_called(label))?;
     let mut judgement = check::judge(&book, index, options);
     Survey::new(&book).report(index, &mut judgement);
     let mut text = String::new();

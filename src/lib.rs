@@ -9,7 +9,7 @@
 //! | floor | modules |
 //! |---|---|
 //! | 6 | `cli`, `watch`, `lsp` |
-//! | 5 | `verify`, `incremental`, `files`, `config`, `explain`, `speed`, `stability` |
+//! | 5 | `verify`, `incremental`, `init`, `symbols`, `files`, `config`, `explain`, `speed`, `stability` |
 //! | 4 | `report`, `diagnose`, `infer` |
 //! | 3 | `semantics`, `check`, `scene` |
 //! | 2 | `expr`, `integrator` |
@@ -26,6 +26,7 @@ pub mod expr;
 pub mod files;
 pub mod incremental;
 pub mod infer;
+pub mod init;
 pub mod integrator;
 pub mod latex;
 pub mod lsp;
@@ -35,6 +36,7 @@ pub mod scene;
 pub mod semantics;
 pub mod speed;
 pub mod stability;
+pub mod symbols;
 #[cfg(test)]
 mod testing;
 pub mod trace;

@@ -13,11 +13,11 @@ fn folder() -> PathBuf {
 
 /// The notes, in the order in which the manual shows them.
 fn notes() -> Vec<PathBuf> {
-    let mut found: Vec<PathBuf> = fs::read_dir(folder()).unwrap().map(|e| e.unwrap().path()).collect();
+    let files = |folder: PathBuf| fs::read_dir(folder).unwrap().map(|e| e.unwrap().path());
+    let mut found: Vec<PathBuf> = files(folder()).chain(files(folder().join("walkthrough"))).collect();
     let is_note = |p: &PathBuf| {
-        let name = p.file_name().unwrap().to_string_lossy();
         let extension = p.extension().unwrap_or_default();
-        name.starts_with(|c: char| c.is_ascii_digit()) && ["md", "tex", "qmd"].iter().any(|e| extension == *e)
+        p.file_name().unwrap() != "README.md" && ["md", "tex", "qmd"].iter().any(|e| extension == *e)
     };
     found.retain(is_note);
     found.sort();
@@ -27,13 +27,13 @@ fn notes() -> Vec<PathBuf> {
 /// What a reader of the manual sees: the command, what it prints, and the exit code.
 fn session(note: &Path) -> String {
     let name = note.file_name().unwrap().to_str().unwrap();
-    let out = tempfile::tempdir().unwrap();
+    let out = Path::new(env!("CARGO_TARGET_TMPDIR")).join("examples").join(name);
     let run = Command::new(env!("CARGO_BIN_EXE_kenzan"))
-        .current_dir(folder())
+        .current_dir(note.parent().unwrap())
         .env("NO_COLOR", "1")
         .env("LC_ALL", "C")
         .args(["verify", name, "--no-times", "--jobs", "1", "--out"])
-        .arg(out.path())
+        .arg(out)
         .output()
         .unwrap();
     let printed = String::from_utf8(run.stdout).unwrap();
@@ -63,8 +63,8 @@ fn every_example_prints_what_the_manual_shows() {
 
 #[test]
 fn the_readme_of_the_examples_leads_through_all_of_them() {
-    let readme = fs::read_to_string(folder().join("README.md")).unwrap();
     for note in notes() {
+        let readme = fs::read_to_string(note.with_file_name("README.md")).unwrap();
         let name = note.file_name().unwrap().to_str().unwrap();
         assert!(readme.contains(&format!("({name})")), "README.md does not mention {name}");
     }

@@ -34,7 +34,7 @@ fn kenzan(at: &Path, arguments: &[&str]) -> Output {
         .args(if arguments.contains(&"--budget") { [].as_slice() } else { &["--budget", "4"] })
         .args(arguments)
         .current_dir(at)
-        .env("NO_COLOR", "1")
+        .envs([("NO_COLOR", "1"), ("LC_ALL", "C")])
         .env_remove("RUST_BACKTRACE")
         .output()
         .unwrap()

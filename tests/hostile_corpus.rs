@@ -28,6 +28,11 @@ fn markdown() {
 }
 
 #[test]
+fn tex() {
+    all("tex", survive::tex);
+}
+
+#[test]
 fn annotation() {
     all("annotation", survive::annotation);
 }

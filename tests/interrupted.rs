@@ -22,7 +22,7 @@ fn notes() -> PathBuf {
 
 fn start(at: &Path, seed: u64) -> std::process::Child {
     let mut command = Command::new(env!("CARGO_BIN_EXE_kenzan"));
-    command.current_dir(at).args(["verify", "notes.md", "--states", "8", "--seed", &seed.to_string()]);
+    command.current_dir(at).args(["verify", "notes.md", "--states", "8", "--seed", &seed.to_string(), "--lang", "en"]);
     command.stdout(Stdio::null()).stderr(Stdio::null()).spawn().unwrap()
 }
 
@@ -89,5 +89,16 @@ fn what_killed_runs_left_is_removed_in_time() {
     let names = std::fs::read_dir(at.join("out")).unwrap().map(|e| e.unwrap().file_name().into_string().unwrap());
     let mut names: Vec<String> = names.collect();
     names.sort();
-    assert_eq!(names, ["mine.tmp", "report.html", "report.json", "report.json.124.tmp"]);
+    assert_eq!(
+        names,
+        [
+            "mine.tmp",
+            "notes-errata.html",
+            "notes-map.html",
+            "notes.html",
+            "report.html",
+            "report.json",
+            "report.json.124.tmp"
+        ]
+    );
 }

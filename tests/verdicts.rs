@@ -288,3 +288,24 @@ fn where_nothing_moves_a_premise_speaks_of_one_moment() {
     assert_eq!(verdict(r"\dot{x} = a", "where = 'x = a t'"), Verdict::Holds);
     assert_eq!(verdict(r"2 x \dot{x} = a", "where = 'x^2 = a t'"), Verdict::Holds);
 }
+
+#[test]
+fn a_row_times_a_column_is_a_number() {
+    let form = r"\begin{pmatrix} x & y \end{pmatrix} \begin{pmatrix} a & b \\ b & c \end{pmatrix} \begin{pmatrix} x \\ y \end{pmatrix}";
+    assert_eq!(verdict(&format!("{form} = a x^2 + 2 b x y + c y^2"), ""), Verdict::Holds);
+    assert_eq!(verdict(&format!("{form} = a x^2 + b x y + c y^2"), ""), Verdict::Fails);
+}
+
+#[test]
+fn the_trace_of_a_matrix() {
+    assert_eq!(verdict(r"\operatorname{tr} (M N) = \operatorname{tr} (N M)", ""), Verdict::Holds);
+    assert_eq!(verdict(r"\operatorname{tr} \begin{pmatrix} a & b \\ c & a \end{pmatrix} = 2 a", ""), Verdict::Holds);
+    assert_eq!(verdict(r"\operatorname{tr} (M N) = \operatorname{tr} M \operatorname{tr} N", ""), Verdict::Fails);
+}
+
+#[test]
+fn a_sum_ends_where_its_letter_is_bound_anew() {
+    assert_eq!(verdict(r"\sum_i m_i \sum_i m_i = \left( \sum_i m_i \right)^2", ""), Verdict::Holds);
+    assert_eq!(verdict(r"a \sum_i m_i^2 \sum_i m_i = a \sum_i m_i \sum_i m_i^2", ""), Verdict::Holds);
+    assert_eq!(verdict(r"\sum_i m_i \sum_i m_i = \sum_i m_i^2", ""), Verdict::Fails);
+}

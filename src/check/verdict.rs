@@ -357,13 +357,27 @@ pub struct Inferred {
     pub given: Vec<String>,
     /// The inline formulas that it follows from, in LaTeX.
     pub formulas: Vec<String>,
+    /// The labels of the equations that it solves.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub solves: Vec<String>,
     /// Whether it, or a link of it, follows from nothing before it, and so is new there.
     pub new: bool,
     /// What it holds under and is said nowhere, in LaTeX: `a > 0`.
     pub needs: Vec<String>,
-    /// The premises of single links: the link's number, from 1, labels, and formulas.
+    /// The premises of single links; of an equation that solves others, those of the whole are told as link 0.
     #[serde(skip)]
-    pub links: Vec<(usize, Vec<String>, Vec<String>)>,
+    pub links: Vec<InferredLink>,
+}
+
+/// What one link was found to follow from.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct InferredLink {
+    /// The link's number, from 1.
+    pub number: usize,
+    /// The labels of equations.
+    pub given: Vec<String>,
+    /// Formulas in LaTeX.
+    pub formulas: Vec<String>,
 }
 
 /// An equation that does not follow from those before it, but would after one edit of what is printed.

@@ -7,7 +7,8 @@
 
 use super::place::Span;
 use super::scan::Found;
-use crate::latex::expand::{Definitions, definition, is_definition};
+use crate::latex::ParseError;
+use crate::latex::expand::{Defined, Definitions, MOST_FAULTS, definition, is_definition};
 
 /// The displays in fences for mathematics, in order.
 pub(super) fn fences(source: &str, code: &[Span]) -> Vec<Found> {
@@ -115,7 +116,7 @@ pub(super) fn definitions(
     let mut all = Definitions::default();
     let (mut places, mut in_force) = (Vec::new(), Vec::new());
     let (mut code, mut found) = (code.iter().peekable(), found.iter().peekable());
-    let mut at = 0;
+    let (mut at, mut faults) = (0, 0);
     while let Some(ahead) = source.get(at..).and_then(|rest| rest.find('\\')) {
         at += ahead;
         while code.next_if(|span| span.end <= at).is_some() {}
@@ -128,25 +129,30 @@ pub(super) fn definitions(
         } else {
             let rest = source.get(at..).unwrap_or_default();
             let from = display.map_or(at, |display| display.span().start);
-            at += match defined(rest) {
-                Some((length, found)) => {
+            let next = 1 + rest.get(1..).and_then(|rest| rest.chars().next()).map_or(0, char::len_utf8);
+            at += match defined(rest).filter(|_| faults < MOST_FAULTS) {
+                Some((length, Ok(found))) => {
                     all.define(found);
                     places.push(at..at + length);
                     in_force.push((from, all.count()));
                     length
                 }
-                None => 1 + rest.get(1..).and_then(|rest| rest.chars().next()).map_or(0, char::len_utf8),
+                Some((_, Err(_))) => {
+                    faults += 1;
+                    next
+                }
+                None => next,
             };
         }
     }
     (all, places, in_force)
 }
 
-fn defined(rest: &str) -> Option<(usize, crate::latex::expand::Defined)> {
+/// The definition that a text begins with, and its length.
+fn defined(rest: &str) -> Option<(usize, Result<Defined, ParseError>)> {
     let name = rest.get(1..)?;
     let name = name.get(..name.find(|c: char| !c.is_ascii_alphabetic()).unwrap_or(name.len()))?;
-    let (length, found) = is_definition(name).then(|| definition(rest))??;
-    Some((length, found.ok()?))
+    is_definition(name).then(|| definition(rest))?
 }
 
 /// A text in which ranges are blank.

@@ -209,6 +209,11 @@ impl<'a> Tokens<'a> {
             }
             "label" => self.argument(200).map(Token::Label),
             "nonumber" | "notag" => Some(Token::Silent),
+            // A matrix of the package physics: its rows are no rows of the display.
+            "mqty" | "matrixquantity" | "pmqty" | "bmqty" | "vmqty" => {
+                self.at += parenthesized(self.rest());
+                None
+            }
             _ => None,
         }
     }
@@ -233,6 +238,22 @@ impl<'a> Iterator for Tokens<'a> {
             }
         }
     }
+}
+
+/// The length of `(..)` that a text begins with; longer ones than a matrix are not looked for.
+fn parenthesized(text: &str) -> usize {
+    let mut depth = 0_usize;
+    for (at, byte) in text.bytes().take(2000).enumerate() {
+        match byte {
+            b'(' => depth += 1,
+            b')' => depth = depth.saturating_sub(1),
+            _ => {}
+        }
+        if depth == 0 {
+            return if byte == b')' { at + 1 } else { 0 };
+        }
+    }
+    0
 }
 
 /// The letters that a text begins with.
@@ -284,6 +305,11 @@ mod tests {
             [r"a &= \begin{pmatrix} 1 \\ 2 \end{pmatrix}", r"\sum_{\substack{i \\ j}} b", "c"]
         );
         assert!(Layout::of(content).breaks.is_empty());
+    }
+
+    #[test]
+    fn the_rows_of_a_matrix_in_parentheses_are_its_own() {
+        assert_eq!(rows_of(r"\begin{aligned} \mqty(a \\ (b)) \\ c \mqty( \\ d \end{aligned}").len(), 3);
     }
 
     #[test]

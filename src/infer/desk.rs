@@ -17,6 +17,9 @@ const FEW: usize = 2;
 /// How many mutants show that what follows could have failed.
 const MUTANTS: usize = 12;
 
+/// How many of them must be no solutions.
+const SOLUTION_FAILS: usize = 2;
+
 /// What a link is judged on.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Basis {
@@ -30,6 +33,16 @@ impl Basis {
     /// Premises alone.
     pub fn of(premises: &[usize]) -> Self {
         Basis { premises: premises.to_vec(), solves: None }
+    }
+
+    /// The displays among them, by their numbers in the book, what is solved first.
+    pub fn displays(&self, all: &[Candidate], book: &Book) -> Vec<usize> {
+        let solved = self.solves.iter().filter_map(|label| Some(book.find(label)?.0));
+        let premises = self.premises.iter().filter_map(|k| match all[*k].source {
+            Origin::Display(index, _) => Some(index),
+            _ => None,
+        });
+        solved.chain(premises).collect()
     }
 
     /// The basis in words: labels, and inline formulas between dollars.
@@ -186,7 +199,8 @@ impl Desk<'_> {
                 _ => {}
             }
         }
-        2 * pass <= fail
+        // A solution has constants of its own, which may be anything.
+        if self.is_solution() { fail >= SOLUTION_FAILS } else { 2 * pass <= fail }
     }
 
     /// The first basis from which the link follows, made as small as it can be and left on the desk.

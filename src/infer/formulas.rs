@@ -12,33 +12,40 @@ use crate::semantics::{self, spelling};
 use super::candidates::inline;
 use super::evidence::{Evidence, names};
 
-/// Declares, for each equation with such a derivative, what is derived by the last formula for it before.
+/// Declares, for each equation with such a derivative, what is derived.
 pub fn declare_functions(book: &mut Book, document: &Document) {
-    let mut known: Vec<(usize, Node)> = Vec::new();
-    for entry in &book.entries {
-        if let Ok(tree) = &entry.formula(Version::Printed).tree {
-            known.push((entry.equation.span.start, tree.clone()));
-        }
+    for (index, declarations) in functions(book, document) {
+        let scope = book.entries[index].scope.with_local(&declarations, &mut Vec::new());
+        book.entries[index].scope = Arc::new(scope);
     }
-    known.extend(inline(document).filter_map(|(span, formula)| Some((span.start, formula.tree.ok()?))));
+}
+
+/// For each equation with such a derivative, by its number, what is derived: by the last formula for it before.
+pub fn functions(book: &Book, document: &Document) -> Vec<(usize, Vec<SymbolDeclaration>)> {
+    let displays = book.entries.iter().filter_map(|entry| {
+        let tree = entry.formula(Version::Printed).tree.as_ref().ok()?;
+        Some((entry.equation.span.start, tree.clone()))
+    });
+    let inline = inline(document).filter_map(|(span, formula)| Some((span.start, formula.tree.ok()?)));
+    let mut known: Vec<(usize, Node)> = displays.chain(inline).collect();
     known.sort_by_key(|(at, _)| *at);
-    for index in 0..book.entries.len() {
-        let entry = &book.entries[index];
+    let mut found = Vec::new();
+    for (index, entry) in book.entries.iter().enumerate() {
         let Ok(tree) = &entry.formula(Version::Printed).tree else { continue };
         let mut evidence = Evidence::default();
         evidence.look(tree);
         let at = entry.equation.span.start;
-        let mut declarations = Vec::new();
-        for (name, variables) in &evidence.derived {
-            let before = known.iter().rev().filter(|(place, _)| *place < at);
-            let formula = before.into_iter().find_map(|(_, tree)| formula(tree, name, variables.iter()));
-            declarations.extend(formula.map(|f| declaration(name, variables.iter(), &f, at)));
-        }
+        let declared = evidence.derived.iter().filter_map(|(name, variables)| {
+            let mut before = known.iter().rev().filter(|(place, _)| *place < at);
+            let formula = before.find_map(|(_, tree)| formula(tree, name, variables.iter()))?;
+            Some(declaration(name, variables.iter(), &formula, at))
+        });
+        let declarations: Vec<SymbolDeclaration> = declared.collect();
         if !declarations.is_empty() {
-            let scope = entry.scope.with_local(&declarations, &mut Vec::new());
-            book.entries[index].scope = Arc::new(scope);
+            found.push((index, declarations));
         }
     }
+    found
 }
 
 /// A side beside a name (perhaps with its arguments) that speaks of the variables and not of the name.

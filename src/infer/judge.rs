@@ -2,7 +2,7 @@
 
 use std::collections::BTreeSet;
 
-use crate::check::verdict::{Inferred, Judgement, LinkJudgement, Strength, Verdict};
+use crate::check::verdict::{Inferred, InferredLink, Judgement, LinkJudgement, Strength, Verdict};
 use crate::check::{self, Book, Options};
 use crate::document::{Document, Spanned};
 use crate::semantics::{Clause, Side, spelling};
@@ -67,11 +67,7 @@ impl Ground {
         let solution = self.solution(&mut desk, &clauses, &open);
         let found = match solution {
             true => None,
-            false => open.iter().find_map(|link| {
-                desk.link = *link;
-                let bases = self.bases(&desk, &clauses);
-                suspects::search(&mut desk, &bases, &first.links)
-            }),
+            false => open.iter().find_map(|link| self.suspect(&mut desk, *link, &clauses, &first.links)),
         };
         let open = if solution { Vec::new() } else { open };
         let judgement = conclude(&mut desk, &clauses, &open);
@@ -80,6 +76,17 @@ impl Ground {
             None if judgement.verdict == Verdict::Holds => self.with_signs(book, index, judgement, false, options),
             None => judgement,
         }
+    }
+
+    /// The likeliest misprint that keeps a link from following: in the link itself, or else in what it may rest on.
+    fn suspect(&self, desk: &mut Desk, link: usize, clauses: &[Clause], links: &[LinkJudgement]) -> Option<Found> {
+        desk.link = link;
+        let (bases, solutions) = (self.bases(desk, clauses), self.solutions(desk, clauses));
+        let named = &self.named[desk.index];
+        suspects::search(desk, &bases, named, links)
+            .or_else(|| suspects::search(desk, &solutions, named, links))
+            .or_else(|| suspects::search_premises(desk, &solutions))
+            .or_else(|| suspects::search_premises(desk, &bases))
     }
 
     /// What the link at hand may follow from.
@@ -99,12 +106,16 @@ impl Ground {
 
     /// Whether the equation solves one before it.
     fn solution(&self, desk: &mut Desk, clauses: &[Clause], open: &[usize]) -> bool {
-        let Some(link) = open.iter().copied().find(|k| !is_chained(clauses, *k)) else { return false };
+        // Put into what it solves, an equation is not judged by itself: what else it says would not be.
+        let (&[link], [_]) = (open, clauses) else { return false };
         desk.link = link;
-        let unknown = spelling(&clauses[link].lhs);
-        let Some((nearby, target)) = self.nearby(desk, clauses) else { return false };
-        let solutions = premises::solutions(&nearby, &self.candidates, &unknown, &target);
-        desk.search(&solutions).is_some()
+        desk.search(&self.solutions(desk, clauses)).is_some()
+    }
+
+    /// What the equation on the desk may solve, if it says nothing else.
+    fn solutions(&self, desk: &Desk, clauses: &[Clause]) -> Vec<Basis> {
+        let ([clause], Some((nearby, target))) = (clauses, self.nearby(desk, clauses)) else { return Vec::new() };
+        premises::solutions(&nearby, &self.candidates, &spelling(&clause.lhs), &target)
     }
 
     /// What holds for positive values is tried with numbers of either sign, where nothing says that they are positive. An
@@ -185,9 +196,13 @@ fn conclude(desk: &mut Desk, clauses: &[Clause], open: &[usize]) -> Judgement {
     let new = !open.is_empty() && open.iter().all(|k| !is_chained(clauses, *k));
     desk.say_kind(new.then_some("law"));
     let mut judgement = check::judge(desk.book, desk.index, desk.options);
-    let links = desk.book.entries[desk.index].annotation().into_iter().flat_map(|a| &a.link);
+    let annotation = desk.book.entries[desk.index].equation.annotation.get_or_insert_default();
     let values = |texts: &[Spanned<String>]| texts.iter().map(|t| t.value.clone()).collect::<Vec<String>>();
-    let links = links.map(|l| (l.number, values(&l.given), values(&l.where_))).collect();
+    let solves = values(&annotation.solves);
+    let whole = (0, values(&annotation.given), values(&annotation.where_));
+    let links = annotation.link.iter().map(|l| (l.number, values(&l.given), values(&l.where_)));
+    let links = std::iter::once(whole).filter(|_| !solves.is_empty()).chain(links);
+    let links = links.map(|(number, given, formulas)| InferredLink { number, given, formulas }).collect();
     let once = |mut names: Vec<String>| {
         let mut seen = BTreeSet::new();
         names.retain(|n| seen.insert(n.clone()));
@@ -196,7 +211,7 @@ fn conclude(desk: &mut Desk, clauses: &[Clause], open: &[usize]) -> Judgement {
     judgement.given = once(judgement.given);
     judgement.assumptions = once(judgement.assumptions);
     let (given, formulas) = (judgement.given.clone(), judgement.assumptions.clone());
-    judgement.inferred = Some(Inferred { given, formulas, new: !open.is_empty(), needs: Vec::new(), links });
+    judgement.inferred = Some(Inferred { given, formulas, solves, new: !open.is_empty(), needs: Vec::new(), links });
     for k in open {
         let Some(link) = judgement.links.get_mut(*k) else { continue };
         if link.verdict == Verdict::Definition {
@@ -234,7 +249,8 @@ fn suspected(mut judgement: Judgement, Found { suspect, contradicts }: Found) ->
     };
     judgement.verdict = verdict;
     judgement.as_expected = false;
-    judgement.reason = Some(format!("{reason}; with one edit it would {follows}: {}", suspect.edit));
+    let of = if suspect.label == judgement.label { String::new() } else { format!(" of ({})", suspect.label) };
+    judgement.reason = Some(format!("{reason}; with one edit{of} it would {follows}: {}", suspect.edit));
     judgement.suspect = Some(suspect);
     judgement
 }

@@ -7,11 +7,11 @@
 //! printed formula is a [suspect](suspects).
 //!
 //! Promises: no equation fails because of a guess. What holds only where symbols are positive is undecided and says so;
-//! what does not follow is no failure.
+//! what does not follow is no failure, unless it contradicts equations that the prose around it refers to.
 
 mod candidates;
 mod desk;
-mod evidence;
+pub mod evidence;
 mod fingerprint;
 mod formulas;
 mod judge;
@@ -24,3 +24,6 @@ mod suspects;
 
 pub use formulas::declare_functions;
 pub use judge::Ground;
+
+#[cfg(test)]
+mod tests;

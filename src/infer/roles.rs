@@ -8,12 +8,13 @@
 use std::collections::BTreeMap;
 
 use crate::check::{Book, Version};
-use crate::document::{Declarations, Document, Item, Problem, Span, Spanned, SymbolDeclaration};
+use crate::document::{Arguments, Declarations, Document, Item, Problem, Span, Spanned, SymbolDeclaration};
 use crate::latex::ast::Node;
 use crate::semantics::{Clause, Error, ErrorKind, Scope, World, understand};
 
 use super::candidates::inline;
 use super::evidence::Evidence;
+use super::formulas;
 use super::reshape;
 
 /// The values that an index is tried with.
@@ -323,4 +324,49 @@ fn letters(sub: &str) -> Vec<String> {
     }
     letters.dedup();
     letters
+}
+
+/// A text in TOML's quotes: single ones, in which a backslash is a backslash, where these can hold it.
+pub fn quoted(text: &str) -> String {
+    match text.contains(['\'', '\n']) {
+        false => format!("'{text}'"),
+        // What JSON escapes TOML does, too, and in the same way.
+        true => serde_json::Value::from(text).to_string(),
+    }
+}
+
+/// A declaration in TOML, as it stands behind the symbol's name.
+pub fn toml(declaration: &SymbolDeclaration) -> String {
+    let text = |value: &Spanned<String>| quoted(&value.value);
+    let list = |values: &[Spanned<String>]| format!("[{}]", values.iter().map(text).collect::<Vec<_>>().join(", "));
+    let functions = match &declaration.function {
+        Some(Arguments::Names(names)) => Some(list(names)),
+        Some(Arguments::Count(count)) => Some(count.to_string()),
+        None => None,
+    };
+    let pairs = [
+        ("index", declaration.index.map(|[from, to]| format!("[{from}, {to}]"))),
+        ("vector", declaration.vector.as_ref().map(text)),
+        ("matrix", declaration.matrix.map(|[rows, columns]| format!("[{rows}, {columns}]"))),
+        ("function", functions),
+        ("same", declaration.same.as_ref().map(text)),
+        ("each", Some(list(&declaration.each)).filter(|_| !declaration.each.is_empty())),
+        ("of", declaration.of.as_ref().map(text)),
+        ("unit", declaration.unit.as_ref().map(text)),
+        ("range", declaration.range.map(|[from, to]| format!("[{from:?}, {to:?}]"))),
+    ];
+    let pairs: Vec<String> = pairs.into_iter().filter_map(|(k, v)| Some(format!("{k} = {}", v?))).collect();
+    if pairs.is_empty() { "{}".into() } else { format!("{{ {} }}", pairs.join(", ")) }
+}
+
+/// What is declared in single equations alone, by label: the formula of what is derived there, with its name.
+pub fn local_functions(document: &Document, guesses: &[Guess]) -> BTreeMap<String, Vec<(String, String)>> {
+    let document = declare(document, guesses);
+    let book = Book::new(&document);
+    let found = formulas::functions(&book, &document).into_iter();
+    let told = found.map(|(index, declarations)| {
+        let named = declarations.iter().filter_map(|d| Some((d.names.first()?.value.clone(), toml(d))));
+        (book.entries[index].equation.label.clone(), named.collect())
+    });
+    told.collect()
 }

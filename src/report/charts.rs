@@ -246,7 +246,7 @@ fn nutation() -> Result<Chart, ChartError> {
         Series { colour: 1, dashed: false, markers: true, points: let_go },
         Series { colour: 2, dashed: true, markers: true, points: small },
     ];
-    let head = ["$\\Omega$ in rad/s", "$I_1 \\Omega / I_0$", "let go", "error", "infinitesimal", "error"];
+    let head = ["$\\Omega$ in rad/s", "$I_1 \\Omega / I_0$ in rad/s", "let go", "error", "infinitesimal", "error"];
     let svg = plot(title, &spin_axis(), &error_axis(), &series)?;
     Ok(chart("nutation", title, caption, svg, legend, Table { head: head.map(String::from).to_vec(), rows }))
 }

@@ -3,6 +3,7 @@
 //! The policy of each page lets run nothing but the script that Kenzan puts there, known by its hash, and no style but
 //! Kenzan's own.
 
+use super::math;
 use super::names::ENTRY;
 use super::words::{self, Words};
 use super::{Options, ReportError, Run, view};
@@ -14,7 +15,7 @@ use tera::{Context, Kwargs, State, Tera};
 
 /// The templates by the names under which they include each other. The names end in `.html`, so what they are given is
 /// escaped.
-const TEMPLATES: [(&str, &str); 22] = [
+const TEMPLATES: [(&str, &str); 23] = [
     ("page.html", include_str!("../../templates/page.html")),
     ("index.html", include_str!("../../templates/index.html")),
     ("report.html", include_str!("../../templates/report.html")),
@@ -24,6 +25,7 @@ const TEMPLATES: [(&str, &str); 22] = [
     ("summary.html", include_str!("../../templates/summary.html")),
     ("contents.html", include_str!("../../templates/contents.html")),
     ("find.html", include_str!("../../templates/find.html")),
+    ("formula.html", include_str!("../../templates/formula.html")),
     ("latex.html", include_str!("../../templates/latex.html")),
     ("bar.html", include_str!("../../templates/bar.html")),
     ("erratum.html", include_str!("../../templates/erratum.html")),
@@ -100,6 +102,7 @@ impl Press {
     fn new(options: Options) -> Result<Self, ReportError> {
         let mut tera = Tera::new();
         tera.register_filter("fill", fill);
+        tera.register_filter("length_class", |html: &str, _: Kwargs, _: &State| math::length_class(html));
         tera.add_raw_templates(TEMPLATES)?;
         let style = unix_lines(STYLE);
         let script = unix_lines(SCRIPT);

@@ -78,6 +78,29 @@ pub(super) fn marked(latex: &str) -> String {
     format!(r"{{\textcolor{{{MARK}}}{{{latex}}}}}")
 }
 
+/// The class, with a space before it, of a formula that may be wider than its place: it can be scrolled by the keyboard on
+/// a screen and is made smaller on paper. By the signs in its longest row; a formula of 60 signs is seldom wider than 45 em.
+pub(super) fn length_class(html: &str) -> &'static str {
+    let signs = |row: &str| {
+        let mut within = false;
+        let is_sign = |c: &char| match c {
+            '<' | '>' => {
+                within = *c == '<';
+                false
+            }
+            c => !within && !c.is_whitespace(),
+        };
+        row.chars().filter(is_sign).count()
+    };
+    match html.split("</mtr>").map(signs).max().unwrap_or(0) {
+        0..=60 => "",
+        61..=80 => " long",
+        81..=100 => " long longer",
+        101..=130 => " long longest",
+        _ => " long endless",
+    }
+}
+
 fn source(latex: &str) -> String {
     format!("<code class=\"source\">{}</code>", escape(latex))
 }
@@ -166,6 +189,19 @@ mod tests {
             let shown = displays.iter().filter(|latex| renderer.display(latex).starts_with("<math")).count();
             assert_eq!(shown, displays.len());
         }
+    }
+
+    #[test]
+    fn long_formulas_are_known() {
+        let display = |latex: &str| Renderer::new().display(latex);
+        assert_eq!(length_class(&display(r"a = \frac{b}{c}")), "");
+        assert_eq!(length_class(&display(&"a + b = ".repeat(16))), " long");
+        // Rows count each for itself.
+        assert_eq!(
+            length_class(&display(&format!(r"\begin{{aligned}}{}\end{{aligned}}", r"a &= b \\".repeat(40)))),
+            ""
+        );
+        assert_eq!(length_class(&display(&"a + b = ".repeat(90))), " long endless");
     }
 
     #[test]

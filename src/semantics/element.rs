@@ -8,7 +8,7 @@
 use crate::latex::ast::{BigOp, Kind, Node};
 
 use super::elaborate::Elaborator;
-use super::juxtaposition::{Item, flatten};
+use super::juxtaposition::{Item, flatten, summed_again};
 
 impl Elaborator<'_> {
     /// The indices of the mass elements that an integral integrates over; none where it is another integral.
@@ -33,15 +33,19 @@ impl Elaborator<'_> {
     }
 
     /// How many of the items behind a big operator it acts on: all of them, but a mass integral that has had its
-    /// differential ends where the next begins.
-    pub(super) fn reach(&self, operator: &Node, rest: &[Item]) -> usize {
+    /// differential ends where the next begins, and a sum where its letter is bound anew. `printed` is the operator with
+    /// its scripts.
+    pub(super) fn reach(&self, operator: &Node, printed: &Node, rest: &[Item]) -> usize {
+        let before = |next: usize| {
+            let joined = rest[..next].iter().rev().take_while(|item| matches!(item, Item::Op(..))).count();
+            next - joined
+        };
         let begins = |item: &Item| matches!(item, Item::Factor(n) if is_integral(n));
         match rest.iter().position(begins) {
             Some(next) if is_integral(operator) && !self.particles(&factors_of(&rest[..next])).is_empty() => {
-                let joined = rest[..next].iter().rev().take_while(|item| matches!(item, Item::Op(..))).count();
-                next - joined
+                before(next)
             }
-            _ => rest.len(),
+            _ => summed_again(printed, rest).map_or(rest.len(), before),
         }
     }
 }

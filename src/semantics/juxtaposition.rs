@@ -186,7 +186,7 @@ impl Elaborator<'_> {
         }
         match &head.kind {
             Kind::BigOp(op) => {
-                let reach = self.reach(head, &items[1..]);
+                let reach = self.reach(head, node, &items[1..]);
                 return self.big_operator(*op, node, &items[1..=reach]).map(|t| (t, reach + 1));
             }
             Kind::Frac(num, den) => return self.fraction(num, den, node, &items[1..]).map(|(t, n)| (t, n + 1)),
@@ -363,4 +363,18 @@ fn is_group_of_t(node: &Node) -> bool {
         Kind::Group { body, .. } => matches!(&body.kind, Kind::Symbol(s) if s == "t"),
         _ => false,
     }
+}
+
+/// Where a product, after something else, comes to a sum or product over the same letters: they are bound anew, and
+/// `\sum_i x_i \sum_i y_i` is a product of two sums.
+pub(super) fn summed_again(node: &Node, rest: &[Item]) -> Option<usize> {
+    let over = |node: &Node| match &node.kind {
+        Kind::Scripts { base, sub: Some(sub), .. } if matches!(base.kind, Kind::BigOp(BigOp::Sum | BigOp::Product)) => {
+            Some(super::name::spelling(sub)).filter(|letters| !letters.is_empty())
+        }
+        _ => None,
+    };
+    let own = over(node)?;
+    let again = |item: &Item| matches!(item, Item::Factor(factor) if over(factor).as_ref() == Some(&own));
+    rest.iter().position(again).filter(|k| *k > 0)
 }

@@ -68,7 +68,8 @@ fn terms_of(side: &Node) -> Vec<&Node> {
 /// Whether a unit is a factor of a term or of a part of it; words in a subscript belong to a name.
 fn has_unit(node: &Node) -> bool {
     match &node.kind {
-        Kind::Text(text) => units::parse(text).is_ok(),
+        // Exponents in words are set in mathematics: `m s$^{-1}$`.
+        Kind::Text(text) => units::parse(&text.replace(['$', '{', '}'], "")).is_ok(),
         Kind::Scripts { base, .. } => has_unit(base),
         Kind::Annotated { body, .. } => has_unit(body),
         _ => node.children().into_iter().any(has_unit),

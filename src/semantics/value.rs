@@ -135,7 +135,12 @@ pub fn multiply(graph: &mut Graph, a: &Value, b: &Value, span: &Span) -> Result<
             let (re, im) = complex::product(graph, (*a, *b), (*c, *d));
             Ok(Value::Complex(re, im))
         }
-        (Value::Matrix(x), Value::Matrix(y)) if x.cols == y.rows => Ok(Value::Matrix(matrix_product(graph, x, y))),
+        (Value::Matrix(x), Value::Matrix(y)) if x.cols == y.rows => {
+            let product = matrix_product(graph, x, y);
+            // A row times a column is a number.
+            let number = (x.rows, y.cols) == (1, 1) && x.cols > 1;
+            Ok(if number { Value::Scalar(product.at(0, 0)) } else { Value::Matrix(product) })
+        }
         (Value::Vector(_), Value::Vector(_)) => Err(Error::shape("two vectors stand side by side", span)
             .with_help("write a dot product with \\cdot or a cross product with \\times")),
         _ => Err(Error::shape(format!("cannot multiply {} by {}", a.shape(), b.shape()), span)),

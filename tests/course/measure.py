@@ -10,8 +10,8 @@ the annotations of the sidecar. Each hidden misprint is then
     missed  by none of these
     holds   missed, and what is worse, the misprinted formula is said to hold
 
-and each equation without a misprint that fails or is suspect is a false alarm, unless it is of the derivation of a misprint
-(then it is counted as a consequence). Before that the documents are verified without misprints: what fails or is
+and each equation without a misprint that fails or is suspect is a false alarm, unless it is of the derivation of a misprint, or
+rests on one by the premises that the report names (then it is counted as a consequence). Before that the documents are verified without misprints: what fails or is
 suspect there is a false alarm, too. Standard library only.
 """
 import argparse
@@ -30,14 +30,14 @@ import hide_errors
 
 HERE = pathlib.Path(__file__).resolve().parent
 DOCUMENTS = ["electromagnetism.md", "relativity.tex", "linear-algebra.qmd"]
+SUGGEST = False  # whether corrections are searched for in the runs with annotations
 FOUND = ["edit", "here", "near", "missed", "holds"]
 
 
-def verify(kenzan, notes, out):
+def verify(kenzan, notes, out, options):
     """The equations of the report in the order of the notes, and the seconds it took."""
     begun = time.perf_counter()
-    # Labels come from the command line as they are; whatever is printed is of no interest here.
-    done = subprocess.run([kenzan, "verify", str(notes), "--out", str(out)], capture_output=True, text=True, timeout=600)
+    done = subprocess.run([kenzan, "verify", str(notes), "--out", str(out), *options], capture_output=True, text=True, timeout=600)
     seconds = time.perf_counter() - begun
     path = out / "report.json"
     if done.returncode == 2 or not path.exists():
@@ -119,6 +119,30 @@ def derivation(table, label):
     return (own | {other for other, entry in table.items() if label in entry.get("by", [])}) - {label, "self", "text"}
 
 
+def premises(equation):
+    """The labels of the equations that the report takes as premises of this one, for its verdict or for its suspicion."""
+    if equation is None:
+        return set()
+    suspect = equation.get("suspect") or {}
+    suspect = suspect if isinstance(suspect, dict) else {}
+    named = [*equation.get("given", []), *(equation.get("inferred") or {}).get("given", []), *suspect.get("premises", [])]
+    found = {str(label) for label in named}
+    # A chain names the premises of its parts by label and number: "75.2" is of (75).
+    return found | {re.sub(r"\.\d+$", "", label) for label in found} | set(re.findall(r"contradicts \(([^)]*)\)", equation.get("reason") or ""))
+
+
+def rests_on(label, equations, wrong):
+    """Whether an equation rests, by however many steps, on one that has a misprint."""
+    reached, queue = set(), [label]
+    while queue:
+        for premise in premises(equations.get(queue.pop())) - reached:
+            if premise in wrong:
+                return True
+            reached.add(premise)
+            queue.append(premise)
+    return False
+
+
 def classify(misprint, equations, table, hidden, definitions):
     """How a hidden misprint was found."""
     label = misprint["label"]
@@ -147,7 +171,7 @@ def run(kenzan, name, seed, errors, mode, annotated, folder):
     sidecar = HERE / (source.stem + ".kenzan.toml")
     if annotated:
         shutil.copy(sidecar, target)
-    listed, seconds, trouble = verify(kenzan, notes, target / "out")
+    listed, seconds, trouble = verify(kenzan, notes, target / "out", ["--suggest"] if annotated and SUGGEST else [])
     if listed is None:
         return {"document": name, "seed": seed, "annotated": annotated, "trouble": trouble, "seconds": seconds}
     equations = by_label(listed, list(table))
@@ -158,6 +182,7 @@ def run(kenzan, name, seed, errors, mode, annotated, folder):
     wrong = {h["label"] for h in hidden}
     touched = set().union(*(derivation(table, label) for label in wrong)) if wrong else set()
     accused = [label for label, e in equations.items() if alarm(e) and label not in wrong]
+    touched |= {label for label in accused if rests_on(label, equations, wrong)}
     verdicts = collections.Counter(e["verdict"] for e in equations.values())
     undecided = [l for l, e in equations.items() if e["verdict"] == "undecided" and not e.get("suspect")]
     return {
@@ -213,7 +238,9 @@ def main():
     parser.add_argument("--verbose", action="store_true", help="list every misprint and how it was found")
     parser.add_argument("--keep", help="keep the notes and reports in this folder")
     parser.add_argument("--json", help="write the runs to this file")
+    parser.add_argument("--suggest", action="store_true", help="search for corrections in the runs with annotations")
     a = parser.parse_args()
+    globals()["SUGGEST"] = a.suggest
     kenzan = shutil.which(a.kenzan) or str(pathlib.Path(a.kenzan).resolve())
     everything = {}
     with tempfile.TemporaryDirectory() as scratch:

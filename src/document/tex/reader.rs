@@ -9,7 +9,7 @@ use super::super::scan::Found;
 use super::commands::{counted, options, plain, verb};
 use super::number::Counted;
 use super::words::{self, group, macro_name};
-use crate::latex::expand::{Definitions, definition};
+use crate::latex::expand::{Definitions, MOST_FAULTS, definition};
 use std::collections::HashMap;
 use std::path::{Path, PathBuf};
 
@@ -26,6 +26,8 @@ pub(super) struct Reader<'a> {
     pub(super) blank: Vec<Span>,
     /// Whether definitions have been read since the last part.
     has_defined: bool,
+    /// The number of definitions that are damaged.
+    faults: usize,
     /// Environments of the notes that stand for a display.
     pub(super) environments: HashMap<String, String>,
     /// Whether `\begin{document}` is still to come, and whether `\end{document}` has been passed.
@@ -56,6 +58,7 @@ impl<'a> Reader<'a> {
             included: Vec::new(),
             blank: Vec::new(),
             has_defined: false,
+            faults: 0,
             definitions: Definitions::default(),
             environments: HashMap::new(),
             in_preamble: false,
@@ -284,10 +287,15 @@ impl<'a> Reader<'a> {
         let behind = behind + usize::from(text.get(behind..).is_some_and(|rest| rest.starts_with('*')));
         let starred = behind > at + 1 + name.len();
         let argument = |from| group(text, from).and_then(|span| Some((text.get(span.clone())?, span.end + 1)));
-        if let Some((length, defined)) = text.get(at..).and_then(definition) {
-            if let Ok(defined) = defined {
-                self.definitions.define(defined);
-                self.has_defined = true;
+        if self.faults < MOST_FAULTS
+            && let Some((length, defined)) = text.get(at..).and_then(definition)
+        {
+            match defined {
+                Ok(defined) => {
+                    self.definitions.define(defined);
+                    self.has_defined = true;
+                }
+                Err(_) => self.faults += 1,
             }
             self.blank.push(base + at..base + at + length);
             return at + length;

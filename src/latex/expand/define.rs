@@ -9,6 +9,12 @@ use super::{Macro, Parameter};
 /// The longest definition that is read, in bytes.
 const LONGEST: usize = 1 << 12;
 
+/// The length within which most definitions are.
+const SHORT: usize = 200;
+
+/// The most damaged definitions of notes that are looked at: beyond that none is read.
+pub const MOST_FAULTS: usize = 200;
+
 /// A macro with its name.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Defined {
@@ -59,7 +65,13 @@ pub fn is_definition(name: &str) -> bool {
 /// # Errors
 /// The definition is damaged, or of a kind that is not read (delimited parameters of `\def`); its place is in `text`.
 pub fn definition(text: &str) -> Option<(usize, Result<Defined, ParseError>)> {
-    let near = text.get(..text.floor_char_boundary(LONGEST))?;
+    // Most definitions are short, and only what is looked at takes time.
+    within(text, SHORT).filter(|(_, defined)| defined.is_ok()).or_else(|| within(text, LONGEST))
+}
+
+/// The definition that a text begins with, no longer than so many bytes.
+fn within(text: &str, longest: usize) -> Option<(usize, Result<Defined, ParseError>)> {
+    let near = text.get(..text.floor_char_boundary(longest))?;
     let name: &str = near.strip_prefix('\\')?;
     let name = name.get(..name.find(|c: char| !c.is_ascii_alphabetic()).unwrap_or(name.len()))?;
     let way = way(name)?;
@@ -146,7 +158,8 @@ impl<'a> Reader<'a> {
             Some((Kind::Open, _)) => {
                 self.between('{', '}').ok_or(Fault("a definition that is not closed", "add a `}`"))
             }
-            Some((Kind::Close, _)) | None => {
+            // A bracket here is a default that is not closed.
+            Some((Kind::Close, _) | (Kind::Char, "[")) | None => {
                 Err(Fault("a definition that says not what the macro stands for", r"write \newcommand{\name}{..}"))
             }
             Some((_, text)) => {

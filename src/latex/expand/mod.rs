@@ -21,7 +21,7 @@ mod siunitx;
 #[cfg(test)]
 mod tests;
 
-pub use define::{Defined, definition, is_definition};
+pub use define::{Defined, MOST_FAULTS, definition, is_definition};
 
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
@@ -179,7 +179,8 @@ impl Macros {
         if !tokens.iter().any(|(kind, span)| *kind == Kind::Word && self.expands(&source[span.clone()])) {
             return Ok(Expanded::verbatim(source));
         }
-        let mut expander = Expander { macros: self, waiting: Vec::new(), made: 0, expanded: Expanded::default() };
+        let mut expander =
+            Expander { macros: self, waiting: Vec::new(), made: 0, expanded: Expanded::default(), after_word: false };
         let tokens = tokens.into_iter().rev();
         let token =
             |(kind, origin): (Kind, Span)| Token { text: &source[origin.clone()], kind, origin, ..Token::new("") };
@@ -209,6 +210,8 @@ pub(super) struct Expander<'a> {
     /// The number of tokens that macros' bodies and arguments have made.
     made: usize,
     expanded: Expanded,
+    /// Whether the last token written is the name of a macro.
+    after_word: bool,
 }
 
 impl<'a> Expander<'a> {
@@ -287,19 +290,13 @@ impl<'a> Expander<'a> {
         if matches!(token.kind, Kind::NoValue | Kind::True | Kind::Comment) {
             return;
         }
-        if token.text.starts_with(|c: char| c.is_ascii_alphabetic()) && ends_with_word(text) {
+        if token.text.starts_with(|c: char| c.is_ascii_alphabetic()) && self.after_word {
             text.push(' ');
         }
         self.expanded.origins.push((text.len(), token.origin.clone()));
         text.push_str(token.text);
+        self.after_word = token.kind == Kind::Word;
     }
-}
-
-/// Whether a text ends with the name of a macro.
-fn ends_with_word(text: &str) -> bool {
-    let stem = text.trim_end_matches(|c: char| c.is_ascii_alphabetic());
-    let slashes = stem.bytes().rev().take_while(|byte| *byte == b'\\').count();
-    stem.len() < text.len() && slashes % 2 == 1
 }
 
 fn endless(token: &Token) -> ParseError {

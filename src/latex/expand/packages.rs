@@ -89,8 +89,10 @@ const PHYSICS: Table = &[
     ("norm", "s m", r"\left\|#2\right\|"),
     ("order", "m", r"\mathcal{O}\left(#1\right)"),
     ("eval evaluated", "s m", r"\left.#2\right|"),
-    ("comm commutator", "s m m", r"\left[#2,#3\right]"),
-    ("acomm anticommutator pb poissonbracket", "s m m", r"\left\{#2,#3\right\}"),
+    // Not [a, b], which are two numbers.
+    ("comm commutator", "s m m", r"\operatorname{comm}\left(#2,#3\right)"),
+    ("acomm anticommutator", "s m m", r"\operatorname{acomm}\left(#2,#3\right)"),
+    ("pb poissonbracket", "s m m", r"\left\{#2,#3\right\}"),
     ("vb vectorbold", "s m", r"\mathbf{#2}"),
     ("va vectorarrow", "s m", r"\vec{#2}"),
     ("vu vectorunit", "s m", r"\hat{\mathbf{#2}}"),
@@ -105,12 +107,12 @@ const PHYSICS: Table = &[
     ("Res Residue", "", r"\operatorname{Res}"),
     ("erf", "", r"\operatorname{erf}"),
     ("flatfrac", "m m", r"\frac{#1}{#2}"),
-    ("dd differential", "o g d()", r"d\IfValueT{#1}{^{#1}}\IfValueT{#2}{#2}\IfValueT{#3}{(#3)}"),
+    ("dd differential", "o g d()", r"\mathrm{d}\IfValueT{#1}{^{#1}}\IfValueT{#2}{#2}\IfValueT{#3}{(#3)}"),
     ("var variation", "o g d()", r"\delta\IfValueT{#1}{^{#1}}\IfValueT{#2}{#2}\IfValueT{#3}{(#3)}"),
     (
         "dv odv derivative",
         "s o m g d()",
-        r"\IfNoValueTF{#4}{\frac{d\IfValueT{#2}{^{#2}}}{d#3\IfValueT{#2}{^{#2}}}}{\frac{d\IfValueT{#2}{^{#2}}#3}{d#4\IfValueT{#2}{^{#2}}}}\IfValueT{#5}{\left(#5\right)}",
+        r"\IfNoValueTF{#4}{\frac{\mathrm{d}\IfValueT{#2}{^{#2}}}{\mathrm{d}#3\IfValueT{#2}{^{#2}}}}{\frac{\mathrm{d}\IfValueT{#2}{^{#2}}#3}{\mathrm{d}#4\IfValueT{#2}{^{#2}}}}\IfValueT{#5}{\left(#5\right)}",
     ),
     (
         "pdv partialderivative pderivative",
@@ -141,7 +143,7 @@ const PHYSICS: Table = &[
 
 /// Packages whose names mean nothing else, so that it does not matter which is loaded.
 const OTHERS: Table = &[
-    ("diff", "o m m", r"\frac{d\IfValueT{#1}{^{#1}}#2}{d#3\IfValueT{#1}{^{#1}}}"),
+    ("diff", "o m m", r"\frac{\mathrm{d}\IfValueT{#1}{^{#1}}#2}{\mathrm{d}#3\IfValueT{#1}{^{#1}}}"),
     ("diffp", "o m m", r"\frac{\partial\IfValueT{#1}{^{#1}}#2}{\partial#3\IfValueT{#1}{^{#1}}}"),
     ("symbf symbfit mathbfit symbfup", "m", r"\mathbf{#1}"),
     ("symrm symup mathup", "m", r"\mathrm{#1}"),
@@ -150,7 +152,7 @@ const OTHERS: Table = &[
     ("textcolor", "o m m", "{#3}"),
     ("mathclap mathllap mathrlap clap", "m", "#1"),
     ("xspace", "", ""),
-    ("dif", "", "d"),
+    ("dif", "", r"\mathrm{d}"),
     ("uppi", "", r"\pi"),
     ("upmu", "", r"\mu"),
     ("upepsilon", "", r"\epsilon"),
