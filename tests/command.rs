@@ -58,7 +58,7 @@ fn a_wrong_kenzan_toml_is_told_with_its_place() {
     let run = kenzan(&root, &["verify"]);
     assert_eq!(run.status.code(), Some(2));
     let told = err(&run);
-    assert!(told.contains("expected one of human, json, junit, sarif, github, found `yaml`"), "{told}");
+    assert!(told.contains("expected one of human, json, junit, sarif, github") && told.contains("`yaml`"), "{told}");
     assert!(told.contains("kenzan.toml:2:10"), "{told}");
     assert_eq!(kenzan(&root, &["verify", "--format", "human"]).status.code(), Some(0), "not asked for, not wrong");
 }

@@ -60,20 +60,20 @@ impl Watch {
         std::fs::write(&self.notes, text).unwrap();
     }
 
-    /// The status, the headers and the body of an answer.
-    fn get(&self, path: &str, host: &str) -> (u16, String, String) {
-        let mut stream = TcpStream::connect(("127.0.0.1", self.port)).unwrap();
-        stream.set_read_timeout(Some(LONG)).unwrap();
-        write!(stream, "GET {path} HTTP/1.1\r\nHost: {host}\r\nConnection: close\r\n\r\n").unwrap();
-        let mut answer = String::new();
-        stream.read_to_string(&mut answer).unwrap();
-        let (head, body) = answer.split_once("\r\n\r\n").unwrap();
-        (head.split(' ').nth(1).unwrap().parse().unwrap(), head.to_lowercase(), body.to_owned())
-    }
-
     fn page(&self, path: &str) -> (u16, String, String) {
-        self.get(path, &format!("127.0.0.1:{}", self.port))
+        get(self.port, path, &format!("127.0.0.1:{}", self.port))
     }
+}
+
+/// The status, the headers and the body of an answer.
+fn get(port: u16, path: &str, host: &str) -> (u16, String, String) {
+    let mut stream = TcpStream::connect(("127.0.0.1", port)).unwrap();
+    stream.set_read_timeout(Some(LONG)).unwrap();
+    write!(stream, "GET {path} HTTP/1.1\r\nHost: {host}\r\nConnection: close\r\n\r\n").unwrap();
+    let mut answer = String::new();
+    stream.read_to_string(&mut answer).unwrap();
+    let (head, body) = answer.split_once("\r\n\r\n").unwrap();
+    (head.split(' ').nth(1).unwrap().parse().unwrap(), head.to_lowercase(), body.to_owned())
 }
 
 #[test]
@@ -118,9 +118,9 @@ fn the_report_and_nothing_else_is_served_to_this_computer() {
     let (status, head, page) = watch.page("/report.html");
     assert!(status == 200 && page.contains("</html>") && head.contains("frame-ancestors 'self'"), "{head}");
     assert!(!page.contains("watch.js"), "the report's page has no more script than the file");
-    assert_eq!(watch.get("/report.html", &format!("localhost:{}", watch.port)).0, 200);
+    assert_eq!(get(watch.port, "/report.html", &format!("localhost:{}", watch.port)).0, 200);
     for host in ["evil.example", "127.0.0.1", "127.0.0.1:1", ""] {
-        assert_eq!(watch.get("/report.html", host).0, 403, "{host}");
+        assert_eq!(get(watch.port, "/report.html", host).0, 403, "{host}");
     }
     for path in ["/notes.md", "/../notes.md", "/%2e%2e/notes.md", "//etc/passwd", "/.git", "/kenzan.toml"] {
         assert_eq!(watch.page(path).0, 404, "{path}");
@@ -133,7 +133,8 @@ fn the_page_is_told_when_there_is_news() {
     let number = |body: &str| serde_json::from_str::<serde_json::Value>(body).unwrap()["number"].as_u64().unwrap();
     assert_eq!(number(&watch.page("/changed?after=0").2), 1, "at once, where something is new");
     std::thread::scope(|scope| {
-        let waiting = scope.spawn(|| watch.page("/changed?after=1").2);
+        let port = watch.port;
+        let waiting = scope.spawn(move || get(port, "/changed?after=1", &format!("127.0.0.1:{port}")).2);
         std::thread::sleep(Duration::from_millis(200));
         assert!(!waiting.is_finished(), "nothing is new");
         std::fs::write(&watch.notes, NOTES.replace("b + a", "b + b")).unwrap();
