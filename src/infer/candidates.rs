@@ -4,7 +4,7 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use crate::check::{Book, Formula, Version};
 use crate::document::{Document, Span};
-use crate::expr::SymId;
+use crate::expr::{Expr, SymId, Tape, Workspace};
 use crate::latex::ast::{Kind, Node, Rel};
 use crate::semantics::{self, Clause, Elaborator, Scope, Side, World};
 
@@ -149,8 +149,10 @@ impl Spoken {
             }
         }
         let ids: BTreeSet<SymId> = world.graph.symbols(&all);
+        let cancelled = if equations == 1 { cancelled(&mut world, &all) } else { BTreeSet::new() };
         let base = |id: &SymId| world.graph.info(*id).base;
-        let symbols: BTreeSet<String> = ids.iter().map(|id| world.graph.info(base(id)).name.clone()).collect();
+        let spoken = ids.iter().filter(|id| !cancelled.contains(id));
+        let symbols: BTreeSet<String> = spoken.map(|id| world.graph.info(base(id)).name.clone()).collect();
         let rates = ids.iter().filter(|id| world.graph.info(**id).order > 0);
         let rates: BTreeSet<String> = rates.map(|id| world.graph.info(base(id)).name.clone()).collect();
         let moves = !rates.is_empty() || symbols.contains("t");
@@ -165,4 +167,31 @@ pub fn occurrences<'c>(candidates: impl Iterator<Item = &'c Candidate>) -> BTree
         candidate.symbols.iter().for_each(|s| *count.entry(s.as_str()).or_insert(0) += 1);
     }
     count
+}
+
+/// The symbols that are a factor of both sides, or of a power of them, as the mass in m v²/2 = m g h: what is said does not
+/// depend on them. With such a symbol doubled the difference of the sides grows by the same factor everywhere.
+fn cancelled(world: &mut World, sides: &[Expr]) -> BTreeSet<SymId> {
+    let [lhs, rhs] = sides else { return BTreeSet::new() };
+    let residual = world.graph.sub(*lhs, *rhs);
+    let tape = Tape::compile(&world.graph, &[residual]);
+    let mut work = Workspace::default();
+    let mut at = |values: &[f64]| tape.eval(values, &(), &mut work).first().copied().unwrap_or(f64::NAN);
+    let inputs = tape.inputs();
+    let state = |n: usize| (0..inputs.len()).map(|k| 1.0 + 0.4 * (1.7 * k as f64 + 2.3 * n as f64).sin()).collect();
+    let states: Vec<Vec<f64>> = (0..3).map(state).collect();
+    let mut found = BTreeSet::new();
+    for (k, symbol) in inputs.iter().enumerate() {
+        let mut growth = |values: &Vec<f64>| {
+            let mut doubled = values.clone();
+            doubled[k] *= 2.0;
+            at(&doubled) / at(values)
+        };
+        let growths: Vec<f64> = states.iter().map(&mut growth).collect();
+        let alike = growths.iter().all(|g| (g - growths[0]).abs() < 1e-9 * growths[0].abs());
+        if alike && (growths[0] - 1.0).abs() > 1e-3 {
+            found.insert(*symbol);
+        }
+    }
+    found
 }

@@ -68,6 +68,12 @@ fn premises_are_found_among_what_stands_before() {
 }
 
 #[test]
+fn a_factor_of_both_sides_does_not_matter() {
+    let report = report("$$ \\frac{1}{2} m v^2 = m g h \\tag{1} $$\n\n$$ v = \\sqrt{2 g h} \\tag{2} $$\n");
+    assert_eq!(equation(&report, "2").given, ["1"]);
+}
+
+#[test]
 fn what_contradicts_its_premises_and_is_one_edit_away_fails() {
     let report = report(FALL);
     let last = equation(&report, "4");
