@@ -32,7 +32,7 @@ pub fn read(paths: &[PathBuf]) -> Result<Vec<Document>, ReadError> {
             }
         }
         if documents.len() == before {
-            return Err(ReadError::NoEquation { path: path.clone() });
+            return Err(ReadError::NoNotes { path: path.clone() });
         }
     }
     Ok(documents)
@@ -47,7 +47,7 @@ pub fn read_any(paths: &[PathBuf]) -> Result<Vec<Document>, ReadError> {
     for path in paths {
         match read(std::slice::from_ref(path)) {
             Ok(found) => documents.extend(found),
-            Err(ReadError::NoEquation { .. } | ReadError::Empty { .. }) => {}
+            Err(ReadError::NoNotes { .. } | ReadError::NoEquation { .. } | ReadError::Empty { .. }) => {}
             Err(error) => return Err(error),
         }
     }
@@ -115,7 +115,7 @@ mod tests {
         assert_eq!(found, ["README.md", "a.qmd", "whole.tex", "z.md"]);
         let empty = folder.join("b/_site/none");
         std::fs::create_dir_all(&empty).unwrap();
-        assert!(matches!(read(&[empty]), Err(ReadError::NoEquation { .. })));
+        assert!(matches!(read(&[empty]), Err(ReadError::NoNotes { .. })));
         std::fs::remove_dir_all(&folder).unwrap();
     }
 }

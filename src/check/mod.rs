@@ -14,6 +14,7 @@ mod entries;
 pub mod exact;
 mod fingerprint;
 mod formulas;
+pub mod found;
 mod general;
 mod harmonics;
 pub mod inspect;

@@ -82,3 +82,25 @@ pub fn flat(node: Node) -> Node {
 pub fn at<'n>(tree: &'n Node, path: &[usize]) -> Option<&'n Node> {
     path.iter().try_fold(tree, |node, k| node.children().get(*k).copied())
 }
+
+/// Where a node stands in a tree, not among the places that were taken before.
+pub fn find(tree: &Node, node: &Node, taken: &mut Vec<Path>) -> Option<Path> {
+    fn search(tree: &Node, node: &Node, path: &mut Path, taken: &[Path]) -> bool {
+        if tree == node && !taken.contains(path) {
+            return true;
+        }
+        for (k, child) in tree.children().into_iter().enumerate() {
+            path.push(k);
+            if search(child, node, path, taken) {
+                return true;
+            }
+            path.pop();
+        }
+        false
+    }
+    let mut path = Vec::new();
+    search(tree, node, &mut path, taken).then(|| {
+        taken.push(path.clone());
+        path
+    })
+}

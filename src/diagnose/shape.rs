@@ -1,6 +1,6 @@
 //! Small questions about pieces of formulas, and small changes to them.
 
-use crate::latex::ast::{Delim, Kind, Node, Span};
+use crate::latex::ast::{Delim, Kind, Node, Sign, Span, Term};
 use crate::semantics::Scope;
 
 use super::names::Name;
@@ -160,4 +160,16 @@ pub fn with_power(node: &Node, power: u32) -> Node {
         _ => Kind::Scripts { base: Box::new(bare), primes: 0, sub: None, sup },
     };
     Node::new(kind, node.span.clone())
+}
+
+/// The node with a term behind it.
+pub fn plus(node: &Node, negative: bool, term: &Node) -> Node {
+    let sign = if negative { Sign::Minus } else { Sign::Plus };
+    let added = Term { sign, sign_span: Some(node.span.clone()), node: term.clone() };
+    let mut terms = match &node.kind {
+        Kind::Sum(terms) => terms.clone(),
+        _ => vec![Term { sign: Sign::Plus, sign_span: None, node: node.clone() }],
+    };
+    terms.push(added);
+    Node::new(Kind::Sum(terms), node.span.clone())
 }

@@ -12,11 +12,11 @@ use crate::latex::ast::{Kind, Node, Sign, Term};
 use crate::latex::to_latex;
 use crate::semantics::{Clause, Side};
 
-use super::change::{Change, Path, at, flat};
+use super::change::{Change, Path, at, find, flat};
 use super::lexicon::{Lexicon, slots};
 use super::likeness;
 use super::mutants::replaced_at;
-use super::shape::group;
+use super::shape::{group, plus};
 
 /// How near two values must be, relative to the largest of the sides.
 const NEAR: f64 = 1e-9;
@@ -460,28 +460,6 @@ fn key(values: &[f64]) -> f64 {
     sum
 }
 
-/// Where a node stands in a tree, not among the places that were taken before.
-fn find(tree: &Node, node: &Node, taken: &mut Vec<Path>) -> Option<Path> {
-    fn search(tree: &Node, node: &Node, path: &mut Path, taken: &[Path]) -> bool {
-        if tree == node && !taken.contains(path) {
-            return true;
-        }
-        for (k, child) in tree.children().into_iter().enumerate() {
-            path.push(k);
-            if search(child, node, path, taken) {
-                return true;
-            }
-            path.pop();
-        }
-        false
-    }
-    let mut path = Vec::new();
-    search(tree, node, &mut path, taken).then(|| {
-        taken.push(path.clone());
-        path
-    })
-}
-
 fn is_name(node: &Node) -> bool {
     matches!(node.kind, Kind::Symbol(_) | Kind::Styled(..) | Kind::Accent(..) | Kind::Dots(..) | Kind::Scripts { .. })
 }
@@ -489,18 +467,6 @@ fn is_name(node: &Node) -> bool {
 fn doubled(node: &Node) -> Node {
     let two = Node::new(Kind::Number("2".into()), node.span.clone());
     super::shape::times(&two, node)
-}
-
-/// The node with a term behind it.
-fn plus(node: &Node, negative: bool, term: &Node) -> Node {
-    let sign = if negative { Sign::Minus } else { Sign::Plus };
-    let added = Term { sign, sign_span: Some(node.span.clone()), node: term.clone() };
-    let mut terms = match &node.kind {
-        Kind::Sum(terms) => terms.clone(),
-        _ => vec![Term { sign: Sign::Plus, sign_span: None, node: node.clone() }],
-    };
-    terms.push(added);
-    Node::new(Kind::Sum(terms), node.span.clone())
 }
 
 fn signed(negative: bool, node: Node) -> Node {

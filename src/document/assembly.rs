@@ -5,7 +5,7 @@ use super::declaration;
 use super::display::{BlockRows, Display};
 use super::files::Files;
 use super::layout::trimmed;
-use super::place::{Span, Spanned};
+use super::place::{Span, Spanned, first_line, is_right_before};
 use super::problem::Problem;
 use super::scan::{Found, directive};
 use super::sidecar::Sidecar;
@@ -493,19 +493,4 @@ impl<'a> Assembly<'a> {
         }
         Ok((*first, whole.clone(), display, block))
     }
-}
-
-/// Whether only blanks and punctuation stand between two places.
-fn is_right_before(source: &str, formula: &Span, comment: &Span) -> bool {
-    let between = source.get(formula.end..comment.start).unwrap_or("x");
-    between
-        .chars()
-        .all(|c| c.is_whitespace() || matches!(c, '.' | ',' | ';' | ':' | ')' | '。' | '、' | '，' | '．' | '）'))
-}
-
-/// The first line of a range, to underline no more than that.
-pub(super) fn first_line(source: &str, span: &Span) -> Span {
-    let text = source.get(span.clone()).unwrap_or_default();
-    let line = text.lines().next().unwrap_or_default();
-    span.start..span.start + line.trim_end().len()
 }

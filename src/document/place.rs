@@ -77,6 +77,21 @@ impl Lines {
     }
 }
 
+/// Whether only blanks and punctuation stand between two places.
+pub(super) fn is_right_before(source: &str, formula: &Span, comment: &Span) -> bool {
+    let between = source.get(formula.end..comment.start).unwrap_or("x");
+    between
+        .chars()
+        .all(|c| c.is_whitespace() || matches!(c, '.' | ',' | ';' | ':' | ')' | '。' | '、' | '，' | '．' | '）'))
+}
+
+/// The first line of a range, to underline no more than that.
+pub(super) fn first_line(source: &str, span: &Span) -> Span {
+    let text = source.get(span.clone()).unwrap_or_default();
+    let line = text.lines().next().unwrap_or_default();
+    span.start..span.start + line.trim_end().len()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

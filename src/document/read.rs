@@ -63,6 +63,16 @@ pub enum ReadError {
         /// The path.
         path: PathBuf,
     },
+    /// The folder holds no file of notes.
+    #[error("the folder `{}` holds no notes", path.display())]
+    #[diagnostic(
+        code(document::no_notes),
+        help("files that end in .md, .markdown, .qmd, .rmd, .tex or .ltx and hold an equation are notes")
+    )]
+    NoNotes {
+        /// The path.
+        path: PathBuf,
+    },
     /// The file holds no displayed equation, and nothing that looks like a damaged one.
     #[error("`{}` holds no displayed equation", path.display())]
     #[diagnostic(

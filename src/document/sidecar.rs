@@ -6,10 +6,10 @@
 //! key, that is a warning.
 
 use super::annotation::{self, EquationAnnotation};
-use super::assembly::{Assembly, first_line};
+use super::assembly::Assembly;
 use super::declaration::{self, Declarations};
 use super::files::{Beside, Files};
-use super::place::{Span, Spanned};
+use super::place::{Span, Spanned, first_line};
 use super::problem::{Problem, nearest};
 use super::toml::{self, Reader, Table, Value};
 use super::{Equation, Item};

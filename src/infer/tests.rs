@@ -49,7 +49,7 @@ Falling from $h$,
 $$ \frac{1}{2} m v^2 = m g h \tag{2} $$
 so
 $$ v = \sqrt{2 g h} \tag{3} $$
-and from (3)
+and from (1) and (3)
 $$ p = m \sqrt{g h} \tag{4} $$
 ";
 
@@ -82,7 +82,7 @@ fn what_contradicts_its_premises_and_is_one_edit_away_fails() {
     assert_eq!(suspect.latex, r"p = m \sqrt{2 g h}");
     assert!(!last.as_expected);
     // Where the prose does not say what it follows from, the letters may mean something else.
-    let unnamed = self::report(&FALL.replace("and from (3)", "and"));
+    let unnamed = self::report(&FALL.replace("and from (1) and (3)", "and"));
     assert_eq!(equation(&unnamed, "4").verdict, Verdict::Undecided);
     assert!(equation(&unnamed, "4").suspect.is_some());
     // As it should read it follows, and nothing is suspected.

@@ -10,7 +10,9 @@ fn check(name: &str, last: usize, lost: &[usize], displays: usize, equations: us
         return;
     }
     let document = read(&path).unwrap();
-    assert_eq!(problems(&document), Vec::<String>::new());
+    // What the scan has lost is referred to all the same.
+    let of_lost = |problem: &String| lost.iter().any(|k| problem.contains(&format!("there is no equation `{k}`")));
+    assert_eq!(problems(&document).into_iter().filter(|p| !of_lost(p)).collect::<Vec<_>>(), Vec::<String>::new());
     check_promises(&document);
     let labels: Vec<_> =
         document.equations().filter(|equation| equation.numbered).map(|equation| equation.label.clone()).collect();
