@@ -161,13 +161,14 @@ fn displays_that_refer_to_each_other() {
 fn macros_that_expand_without_end() {
     let doubling: String =
         (b'a'..=b'y').map(|c| (c as char, (c + 1) as char)).map(|(a, b)| format!(r"\def\m{a}{{\m{b}\m{b}}}")).collect();
-    for (name, latex) in [
-        ("doubling", format!(r"{doubling} \ma = a")),
-        ("endless", r"\def\x{\x\x} \x = a".to_owned()),
-        ("newcommand", r"\newcommand{\x}{\x\x} \x = a".to_owned()),
-        ("let", r"\let\x=\y \gdef\y{\x} \x = a".to_owned()),
+    for (name, latex, words) in [
+        ("doubling", format!(r"{doubling} \ma = a"), "does not end"),
+        ("endless", r"\def\x{\x\x} \x = a".to_owned(), "does not end"),
+        ("newcommand", r"\newcommand{\x}{\x\x} \x = a".to_owned(), "does not end"),
+        // \let gives the meaning that \y has there, which is none.
+        ("let", r"\let\x=\y \gdef\y{\x} \x = a".to_owned(), "unknown macro"),
     ] {
-        answered(name, &display(&latex), "does not end");
+        answered(name, &display(&latex), words);
     }
 }
 
