@@ -22,6 +22,7 @@
 
 use std::ops::Range;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use miette::{Diagnostic, NamedSource};
 use serde::Deserialize;
@@ -86,7 +87,7 @@ pub enum ConfigError {
         help: String,
         /// The file.
         #[source_code]
-        text: NamedSource<String>,
+        text: Arc<NamedSource<String>>,
         /// Where.
         #[label("here")]
         place: Range<usize>,
@@ -131,7 +132,7 @@ impl Config {
             help: "the keys are files, exclude, out, format, seed, states, budget, precision, jobs, mutants, suggest, \
                    deep, times, lang; for example: files = [\"lectures/*.md\"]"
                 .into(),
-            text: NamedSource::new(path.display().to_string(), text.clone()),
+            text: Arc::new(NamedSource::new(path.display().to_string(), text.clone())),
             place: error.span().unwrap_or(0..0),
         })?;
         let config = Config { path: path.to_owned(), text, ..config };
@@ -266,7 +267,7 @@ impl Config {
         ConfigError::Wrong {
             message: format!("{NAME}: {message}"),
             help: help.to_owned(),
-            text: NamedSource::new(self.path.display().to_string(), self.text.clone()),
+            text: Arc::new(NamedSource::new(self.path.display().to_string(), self.text.clone())),
             place,
         }
     }

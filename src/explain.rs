@@ -6,17 +6,29 @@ use crate::check::dimension::Survey;
 use crate::check::verdict::{DimensionStatus, Judgement};
 use crate::check::{self, Book, Options, Version, inspect::Inspection};
 use crate::document::Document;
+use crate::infer::{self, Ground, roles};
 
 /// Explains the equation of a label or a number: how it was read, what it rests on, its sides at three states, the verdict. `None`
 /// where there is no such label.
 pub fn explain(document: &Document, label: &str, options: &Options) -> Option<String> {
-    let book = Book::new(document);
+    let guesses = if roles::declares_symbols(document) { Vec::new() } else { roles::guess(document) };
+    let declared = roles::declare(document, &guesses);
+    let mut book = Book::new(&declared);
     let (index, _) = book.find(label).filter(|(index, _)| book.entries[*index].equation.is_called(label))?;
-    let mut judgement = check::judge(&book, index, options);
+    let mut judgement = match guesses.is_empty() {
+        true => check::judge(&book, index, options),
+        false => {
+            infer::declare_functions(&mut book, &declared);
+            Ground::new(&book, &declared, guesses.clone()).explained(&mut book, index, options)
+        }
+    };
     Survey::new(&book).report(index, &mut judgement);
     let mut text = String::new();
     // Writing to a string cannot fail.
-    let _ = write(&mut text, document, &book, index, &judgement, options);
+    let _ = write(&mut text, &declared, &book, index, &judgement, options);
+    for guess in guesses.iter().filter(|g| book.entries[index].mentions.contains_key(&g.name)) {
+        let _ = writeln!(text, "guessed: {} is {}", guess.name, guess.role.words());
+    }
     Some(text)
 }
 

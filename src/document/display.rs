@@ -151,12 +151,12 @@ impl<'a> Display<'a> {
         let Some(environment) = environment.filter(|name| number::is_numbered(name)) else { return Vec::new() };
         let rows = match self.regions.as_slice() {
             [region] if has_numbered_rows(environment) => region.rows.clone(),
-            _ => vec![0..self.content.len()],
+            _ => std::iter::once(0..self.content.len()).collect(),
         };
         let unnumbered = |span: &&Span| self.text().get((*span).clone()).is_some_and(|text| text.starts_with(r"\no"));
         let silent: Vec<(Span, ())> = self.layout.silent.iter().filter(unnumbered).map(|s| (s.clone(), ())).collect();
         let own = |row: &Span| within(&silent, row).is_empty() && within(&self.layout.tags, row).is_empty();
-        rows.into_iter().filter(own).map(|row| (row.start, counter.next())).collect()
+        rows.into_iter().filter(own).map(|row| (row.start, counter.next_number())).collect()
     }
 
     /// One equation for each label, if all of them label different rows of one region.

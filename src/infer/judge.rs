@@ -43,6 +43,14 @@ impl Ground {
         judgement
     }
 
+    /// As [`Ground::judge`], but what was found to follow from what is left in the book, for whoever looks closer.
+    pub fn explained(&self, book: &mut Book, index: usize, options: &Options) -> Judgement {
+        match book.entries[index].equation.annotation {
+            Some(_) => check::judge(book, index, options),
+            None => self.inferred(book, index, options),
+        }
+    }
+
     fn inferred(&self, book: &mut Book, index: usize, options: &Options) -> Judgement {
         let first = check::judge(book, index, options);
         let failing: Vec<usize> = (0..first.links.len()).filter(|k| fails(&first.links[*k])).collect();
@@ -223,8 +231,9 @@ fn conclude(desk: &mut Desk, clauses: &[Clause], open: &[usize]) -> Judgement {
         }
     }
     if !open.is_empty() {
-        let worst = judgement.links.iter().max_by_key(|l| l.verdict);
-        judgement.verdict = worst.map_or(judgement.verdict, |l| l.verdict);
+        // That the rest of it follows does not show that what is new is right.
+        let worst = judgement.links.iter().map(|l| l.verdict).max().unwrap_or(judgement.verdict);
+        judgement.verdict = if worst == Verdict::Holds { Verdict::Definition } else { worst };
         judgement.reason =
             judgement.links.iter().find(|l| l.verdict == judgement.verdict).and_then(|l| l.reason.clone());
         judgement.counterexample = judgement.links.iter().find_map(|l| l.counterexample.clone());

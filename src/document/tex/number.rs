@@ -91,7 +91,7 @@ impl Counter {
     }
 
     /// The number of the next equation.
-    pub fn next(&mut self) -> String {
+    pub fn next_number(&mut self) -> String {
         match &mut self.group {
             Some((whole, count)) => {
                 *count += 1;
@@ -129,18 +129,18 @@ mod tests {
     #[test]
     fn equations_are_numbered_within_sections_and_groups() {
         let mut counter = Counter::default();
-        assert_eq!(counter.next(), "1");
+        assert_eq!(counter.next_number(), "1");
         counter.count(Counted::Within(SECTION));
         counter.count(Counted::Heading(SECTION));
-        assert_eq!([counter.next(), counter.next()], ["1.1", "1.2"]);
+        assert_eq!([counter.next_number(), counter.next_number()], ["1.1", "1.2"]);
         counter.count(Counted::Begin);
-        assert_eq!([counter.next(), counter.next()], ["1.3a", "1.3b"]);
+        assert_eq!([counter.next_number(), counter.next_number()], ["1.3a", "1.3b"]);
         counter.count(Counted::End);
         counter.count(Counted::Heading(SECTION));
-        assert_eq!(counter.next(), "2.1");
+        assert_eq!(counter.next_number(), "2.1");
         counter.count(Counted::Appendix);
         counter.count(Counted::Heading(SECTION));
-        assert_eq!(counter.next(), "A.1");
+        assert_eq!(counter.next_number(), "A.1");
     }
 
     #[test]
@@ -149,11 +149,11 @@ mod tests {
         counter.count(Counted::Chapters);
         counter.count(Counted::Heading(CHAPTER));
         counter.count(Counted::Heading(SECTION));
-        assert_eq!(counter.next(), "1.1");
+        assert_eq!(counter.next_number(), "1.1");
         counter.count(Counted::Within(SECTION));
-        assert_eq!(counter.next(), "1.1.2");
+        assert_eq!(counter.next_number(), "1.1.2");
         counter.count(Counted::Set(41));
         counter.count(Counted::Add(-1));
-        assert_eq!(counter.next(), "1.1.41");
+        assert_eq!(counter.next_number(), "1.1.41");
     }
 }

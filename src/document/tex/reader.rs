@@ -341,10 +341,10 @@ impl<'a> Reader<'a> {
             "numberwithin" | "counterwithin" | "setcounter" | "addtocounter" => {
                 let Some((counter, end)) = argument(options(text, behind)) else { return behind };
                 let Some((value, end)) = argument(end) else { return end };
-                if counter.trim() == "equation" {
-                    if let Some(counted) = counted(name, value.trim()) {
-                        self.push(Part::Counted(base + at, counted));
-                    }
+                if counter.trim() == "equation"
+                    && let Some(counted) = counted(name, value.trim())
+                {
+                    self.push(Part::Counted(base + at, counted));
                 }
                 end
             }

@@ -48,7 +48,7 @@ impl<'a> Token<'a> {
     /// Whether it is this character.
     pub fn is(&self, c: char) -> bool {
         matches!(self.kind, Kind::Char | Kind::Open | Kind::Close)
-            && self.text.chars().next() == Some(c)
+            && self.text.starts_with(c)
             && self.text.len() == c.len_utf8()
     }
 }
