@@ -3,7 +3,9 @@ use std::path::Path;
 use super::*;
 use crate::document;
 use crate::report::Options;
-use crate::report::stability::{html, json, table};
+#[cfg(not(feature = "rug"))]
+use crate::report::stability::table;
+use crate::report::stability::{html, json};
 
 /// Notes with a planted cancellation, an ill-conditioned difference and a harmless product.
 const NOTES: &str = "<!-- kenzan\n[symbols]\n'x' = { range = [0.0, 1.0] }\n'y, z' = { range = [1.0, 2.0] }\n-->\n\n\
