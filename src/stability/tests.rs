@@ -48,6 +48,14 @@ fn the_same_seed_gives_the_same_bytes() {
     assert!(!first.1.contains("micros") && !first.1.contains("nanoseconds"));
 }
 
+#[test]
+fn a_hard_case_has_its_chart_with_its_numbers() {
+    let documents = crate::verify::documents(&[]).unwrap();
+    let request = Request { seed: 1, only: vec!["68".into()], times: false };
+    let page = html(&stability(&documents, &request, &|| ()).unwrap(), Options::default()).unwrap();
+    assert!(page.contains("<figure") && page.contains("<summary>"), "{page}");
+}
+
 /// With more than double-double other states are certain, and the search goes other ways.
 #[cfg(not(feature = "rug"))]
 #[test]

@@ -89,6 +89,7 @@ pub fn html(stability: &Stability, options: Options) -> Result<String, ReportErr
     tera.add_raw_templates(TEMPLATES)?;
     let mut context = Context::from_serialize(&view::page(stability, options))?;
     context.insert("style", STYLE);
+    context.insert("w", super::Language::English.words());
     Ok(tera.render("stability.html", &context)?)
 }
 
