@@ -28,6 +28,7 @@ mod view_equation;
 mod view_errata;
 mod view_inferred;
 mod view_map;
+mod view_overview;
 pub mod words;
 mod write;
 

@@ -32,12 +32,14 @@ const TABLES: [&[(&str, &str)]; 7] = [
     scenes::PATTERNS,
 ];
 
-/// How a sentence goes on: with the part of a formula that it is about, what to do, or another of its kind.
+/// How a sentence goes on with another that says what to do, or more: the sign between them, that at the end, and both in
+/// Japanese. The first two come before patterns, whose last place would take them in.
 const JOINTS: [(&str, &str, &str); 4] =
-    [(" (", ")", " ({b})"), ("; ", "", "。{b}"), (". ", "", "。{b}"), (": ", "", ": {b}")];
+    [(" (", ")", " ({b})"), (". ", "", "。{b}"), ("; ", "", "。{b}"), (": ", "", ": {b}")];
 
-/// The deepest that sentences are taken apart: notes may look like one.
-const DEEPEST: usize = 6;
+/// The deepest that sentences are taken apart, and the most places at which one is: notes may look like sentences.
+const DEEPEST: usize = 5;
+const MOST: usize = 3;
 
 /// The sentence in Japanese, or as it is.
 pub(super) fn japanese(english: &str) -> Cow<'_, str> {
@@ -52,10 +54,17 @@ pub(super) fn problem(english: &str) -> Cow<'_, str> {
 
 fn translated(english: &str, depth: usize) -> Option<String> {
     let depth = depth.checked_sub(1)?;
-    let patterns = TABLES.iter().flat_map(|table| table.iter());
-    let fitting = patterns.filter_map(|(pattern, japanese)| Some((places(pattern, english)?, japanese)));
-    let said = fitting.map(|(found, japanese)| filled(&found, japanese, depth)).next();
-    said.or_else(|| with_piece(english, depth)).or_else(|| joined(english, depth))
+    let (before, after) = JOINTS.split_at(2);
+    with_piece(english, depth)
+        .or_else(|| joined(english, before, depth))
+        .or_else(|| fitting(english, depth))
+        .or_else(|| joined(english, after, depth))
+}
+
+/// The translation of the first pattern that fits.
+fn fitting(english: &str, depth: usize) -> Option<String> {
+    let mut patterns = TABLES.iter().flat_map(|table| table.iter());
+    patterns.find_map(|(pattern, japanese)| Some(filled(&places(pattern, english)?, japanese, depth)))
 }
 
 /// A pattern's translation with what stands in its places.
@@ -101,14 +110,14 @@ fn with_piece(english: &str, depth: usize) -> Option<String> {
 }
 
 /// Two sentences in one, both of which are known.
-fn joined(english: &str, depth: usize) -> Option<String> {
-    for (separator, end, joint) in JOINTS {
+fn joined(english: &str, joints: &[(&str, &str, &str)], depth: usize) -> Option<String> {
+    for (separator, end, joint) in joints {
         let Some(whole) = english.strip_suffix(end) else { continue };
         // The last joint first: what goes before it may have joints of its own.
-        for (at, _) in whole.rmatch_indices(separator).take(DEEPEST) {
-            let after = &whole[at + separator.len()..];
-            if let (Some(a), Some(b)) = (translated(&whole[..at], depth), translated(after, depth)) {
-                return Some(a + &with(joint, &[("b", &b)]));
+        for (at, _) in whole.rmatch_indices(separator).take(MOST) {
+            let Some(after) = translated(&whole[at + separator.len()..], depth) else { continue };
+            if let Some(before) = translated(&whole[..at], depth) {
+                return Some(before + &with(joint, &[("b", &after)]));
             }
         }
     }
@@ -118,13 +127,18 @@ fn joined(english: &str, depth: usize) -> Option<String> {
 /// What stands in the places of a pattern, where the text fits it.
 fn places<'t>(pattern: &'static str, text: &'t str) -> Option<Vec<(&'static str, &'t str)>> {
     let mut pieces = pattern.split('{');
-    let mut rest = text.strip_prefix(pieces.next()?)?;
+    let mut before = pieces.next()?;
+    let mut rest = text.strip_prefix(before)?;
     let mut found = Vec::new();
     for piece in pieces {
         let (name, literal) = piece.split_once('}')?;
         let end = if literal.is_empty() { rest.len() } else { rest.find(literal)? };
+        // What is quoted ends where its quotation does.
+        if before.ends_with('`') && rest[..end].contains('`') {
+            return None;
+        }
         found.push((name, &rest[..end]));
-        rest = &rest[end + literal.len()..];
+        (before, rest) = (literal, &rest[end + literal.len()..]);
     }
     rest.is_empty().then_some(found)
 }
