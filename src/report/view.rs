@@ -211,7 +211,7 @@ impl<'r> Builder<'r> {
             lang: language(&document.title),
             lead: self.lead(counts.total, alone),
             unexpected: self.unexpected(counts),
-            problems_html: document.problems.iter().map(|p| self.renderer.prose(p)).collect(),
+            problems_html: document.problems.iter().map(|p| self.renderer.prose(&p.text)).collect(),
             dimensions: view_dimensions::summary(document, &self.renderer),
             counts,
             shares: self.shares(counts),
