@@ -82,7 +82,7 @@ pub fn verify_again(
     memory: &mut Memory,
     judged: &(dyn Fn() + Sync),
 ) -> (Verified, Vec<usize>) {
-    let guesses = if roles::declares_symbols(&document) { Vec::new() } else { roles::guess(&document) };
+    let guesses = roles::guess(&document);
     let assumed = guesses.iter().map(|g| assumed(g, &document)).collect();
     let document = if guesses.is_empty() { document } else { roles::declare(&document, &guesses) };
     let mut book = memory.book(&document);
