@@ -82,7 +82,7 @@ pub fn verify_again(
     memory: &mut Memory,
     judged: &(dyn Fn() + Sync),
 ) -> (Verified, Vec<usize>) {
-    let guesses = if roles::declares_symbols(&document) { Vec::new() } else { roles::guess(&document) };
+    let guesses = roles::guess(&document);
     let assumed = guesses.iter().map(|g| assumed(g, &document)).collect();
     let document = if guesses.is_empty() { document } else { roles::declare(&document, &guesses) };
     let mut book = memory.book(&document);
@@ -176,7 +176,7 @@ pub fn run<'v>(verified: impl IntoIterator<Item = &'v Verified>, request: &Reque
         states: request.options.states,
         precision: request.options.precision,
         documents: verified.iter().map(|v| v.report.clone()).collect(),
-        charts: if bundled { charts::heavy_top().unwrap_or_default() } else { Vec::new() },
+        charts: bundled.then_some(charts::heavy_top),
         micros: u64::try_from(begin.elapsed().as_micros()).unwrap_or(u64::MAX),
     }
 }

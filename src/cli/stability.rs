@@ -2,8 +2,8 @@
 
 use std::path::PathBuf;
 
-use crate::diagnose::stability::survey::Counts;
-use crate::report::{self, stability::Stability};
+use super::options::{self, Words};
+use crate::report;
 use crate::stability::{Request, stability};
 use crate::verify;
 
@@ -27,10 +27,13 @@ pub struct Arguments {
     /// The number of threads; one for each core otherwise.
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
     pub jobs: Option<u16>,
+    #[command(flatten)]
+    words: Words,
 }
 
 /// Surveys, writes the page and the data, prints a summary.
 pub fn run(arguments: &Arguments) -> miette::Result<()> {
+    let language = arguments.words.language(&options::config()?)?;
     let documents = verify::documents(&arguments.paths)?;
     for label in &arguments.only {
         if !documents.iter().any(|d| d.equations().any(|e| e.label == *label)) {
@@ -42,24 +45,9 @@ pub fn run(arguments: &Arguments) -> miette::Result<()> {
     let request = Request { seed: arguments.seed, only: arguments.only.clone(), times };
     let found = stability(&documents, &request, &|| bar.inc(1))?;
     bar.finish_and_clear();
-    let written =
-        report::stability::write(&found, &arguments.out, report::Options { times, ..report::Options::default() })?;
-    super::print_text(&format!("{}\nreport: {}\n", summary(&found, times), written.html.display()));
+    let options = report::Options { times, language };
+    let written = report::stability::write(&found, &arguments.out, options)?;
+    let place = report::words::where_to_begin(language, &written.html);
+    super::print_text(&format!("{}\n{place}\n", report::stability::summary(&found, options)));
     Ok(())
-}
-
-fn summary(found: &Stability, times: bool) -> String {
-    let mut text = report::stability::table(&found.cases);
-    let Counts { equations, formulas, at_random, losing, ill_conditioned, exact_numbers, unstable, mended, .. } =
-        found.counts();
-    text += &format!(
-        "\n{formulas} formulas of {equations} equations: {losing} lose more than 10 bits somewhere in the declared \
-         ranges ({at_random} at one of the random states)\n  {ill_conditioned} of them because the problem is \
-         ill-conditioned; rewriting found for {exact_numbers} a form that loses at most 10 bits of exact numbers\n  \
-         {unstable} by their own fault; rewriting mends {mended}\n",
-    );
-    if times {
-        text += &format!("{:.1} s\n", found.micros as f64 / 1e6);
-    }
-    text
 }

@@ -84,7 +84,7 @@ fn verify_documents(
     bar.finish_and_clear();
     check_labels(request, &verified)?;
     for v in &verified {
-        show_problems(v);
+        show_problems(v, printed.options.language);
     }
     let run = verify::run(&verified, request, begin);
     let written = out.map(|out| report::write(&run, out, printed.options)).transpose()?;
@@ -93,7 +93,7 @@ fn verify_documents(
 }
 
 /// Shows what is wrong with the document, and what stands in the way of verdicts that are not expected, in the source.
-fn show_problems(verified: &Verified) {
+fn show_problems(verified: &Verified, language: report::Language) {
     let surprising = verified.report.equations.iter().filter(|e| !e.as_expected);
     let mut problems: Vec<&Problem> = verified.problems.iter().collect();
     let told: HashSet<(usize, usize)> = problems.iter().map(|p| (p.span.start, p.span.end)).collect();
@@ -104,10 +104,10 @@ fn show_problems(verified: &Verified) {
         }
     }
     for problem in problems.iter().take(MOST_SHOWN) {
-        eprintln!("{:?}", problem.to_miette(&verified.document));
+        eprintln!("{:?}", language.problem(problem).to_miette(&verified.document));
     }
     if problems.len() > MOST_SHOWN {
-        eprintln!("... and {} more: each is listed in the summary\n", problems.len() - MOST_SHOWN);
+        eprintln!("{}\n", report::words::more_problems(language, problems.len() - MOST_SHOWN));
     }
 }
 

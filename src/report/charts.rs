@@ -3,6 +3,8 @@
 
 use super::svg::{Axis, Series, plot};
 use super::text::number;
+use super::words::charts::ChartWords;
+use super::words::{Language, with};
 use crate::integrator::{CLASSICAL_4, DORMAND_PRINCE_8, IntegrationError, RungeKutta, Tableau, integrate_fixed};
 use crate::scene::top::{HeavyTop, TooSlow, TopState};
 use serde::Serialize;
@@ -93,18 +95,19 @@ const EVALUATIONS: usize = 144;
 ///
 /// # Errors
 /// [`ChartError`]
-pub fn heavy_top() -> Result<Vec<Chart>, ChartError> {
-    Ok(vec![conservation()?, precession()?, nutation()?])
+pub fn heavy_top(language: Language) -> Result<Vec<Chart>, ChartError> {
+    let words = language.chart_words();
+    Ok(vec![conservation(words)?, precession(words)?, nutation(words)?])
 }
 
 /// A constant of the motion, with its name.
-type Constant = (&'static str, fn(&TopState) -> f64);
+type Constant = (fn(&ChartWords) -> &'static str, fn(&TopState) -> f64);
 
 /// The constants of the motion whose drift is drawn.
 const CONSTANTS: [Constant; 3] = [
-    ("$L_z$", |state| TOP.vertical_momentum(state)),
-    ("energy", |state| TOP.energy(state)),
-    (r"$\omega_\zeta$", TopState::spin),
+    (|_| "$L_z$", |state| TOP.vertical_momentum(state)),
+    (|words| words.energy, |state| TOP.energy(state)),
+    (|_| r"$\omega_\zeta$", TopState::spin),
 ];
 
 /// For each nutation, the largest relative drift so far of each constant.
@@ -128,7 +131,7 @@ fn drifts(method: &Tableau, period: f64) -> Result<Vec<[f64; 3]>, ChartError> {
     Ok(rows)
 }
 
-fn conservation() -> Result<Chart, ChartError> {
+fn conservation(t: &ChartWords) -> Result<Chart, ChartError> {
     let exact = TOP.nutation(THETA, KICK, SPIN).ok_or(ChartError::NoNutation { theta: THETA, spin: SPIN })?;
     let methods = [&CLASSICAL_4, &DORMAND_PRINCE_8];
     let (mut series, mut legend, mut columns) = (Vec::new(), Vec::new(), Vec::new());
@@ -138,25 +141,31 @@ fn conservation() -> Result<Chart, ChartError> {
         for (i, colour) in (0..CONSTANTS.len()).zip(1..) {
             let points = rows.iter().enumerate().map(|(n, row)| ((n + 1) as f64, row[i])).collect();
             series.push(Series { colour, dashed, markers: false, points });
-            legend.push(entry(colour, dashed, false, format!("{}, {}", CONSTANTS[i].0, method.name)));
+            legend.push(entry(
+                colour,
+                dashed,
+                false,
+                with(t.drift_line, &[("constant", &CONSTANTS[i].0(t)), ("method", &method.name)]),
+            ));
         }
         columns.push(rows);
     }
-    let x = Axis { label: "nutations", range: 0.0..PERIODS as f64, logarithmic: false };
-    let y = Axis { label: "relative drift", range: 1e-16..1e-2, logarithmic: true };
-    let title = "Drift of the constants of the motion";
-    let caption = format!(
-        "The top is set going at $\\theta = {THETA}$ rad with a spin of ${SPIN}$ rad/s and a precession of ${KICK}$ rad/s, so \
-         that its axis draws loops, and followed through {PERIODS} nutations. $L_z$, \
-         the energy and $\\omega_\\zeta$ are constant by (52), (66) and (41); what is drawn is the largest relative drift so \
-         far of the numerical motion. Both methods take fixed steps and evaluate the equations of motion {EVALUATIONS} times \
-         a nutation: at the same cost, the drift of the energy is {} for {} and {} for {}.",
-        last(&columns[0]),
-        methods[0].name,
-        last(&columns[1]),
-        methods[1].name,
-    );
-    let head = std::iter::once("nutations".to_owned()).chain(legend.iter().map(|e: &LegendEntry| e.label.clone()));
+    let x = Axis { label: t.nutations, range: 0.0..PERIODS as f64, logarithmic: false };
+    let y = Axis { label: t.relative_drift, range: 1e-16..1e-2, logarithmic: true };
+    let title = t.drift_title;
+    let places: [(&str, &dyn Display); 9] = [
+        ("theta", &THETA),
+        ("spin", &SPIN),
+        ("kick", &KICK),
+        ("periods", &PERIODS),
+        ("evaluations", &EVALUATIONS),
+        ("drift", &last(&columns[0])),
+        ("method", &methods[0].name),
+        ("drift_2", &last(&columns[1])),
+        ("method_2", &methods[1].name),
+    ];
+    let caption = with(t.drift_caption, &places);
+    let head = std::iter::once(t.nutations.to_owned()).chain(legend.iter().map(|e: &LegendEntry| e.label.clone()));
     let sampled = [1, 3, 10, 30, 100, PERIODS].into_iter().map(|n| {
         let drifts = columns.iter().flat_map(|rows| rows[n - 1].iter().map(|d| number(*d, 3)));
         std::iter::once(n.to_string()).chain(drifts).collect()
@@ -185,7 +194,7 @@ fn order(points: &[(f64, f64)]) -> f64 {
     -product / square
 }
 
-fn precession() -> Result<Chart, ChartError> {
+fn precession(t: &ChartWords) -> Result<Chart, ChartError> {
     let (mut slow, mut fast, mut rows) = (Vec::new(), Vec::new(), Vec::new());
     for spin in spins() {
         let exact = TOP.steady_precession(THETA, spin)?;
@@ -196,28 +205,21 @@ fn precession() -> Result<Chart, ChartError> {
         fast.push((spin, fast_error));
         rows.push([spin, exact.slow, error, exact_fast, fast_error].iter().map(|v| number(*v, 4)).collect());
     }
-    let title = "Slow and fast precession against the exact roots";
-    let caption = format!(
-        "Relative error of the approximations (71) and (72), $mgl / (I_1 \\Omega)$ and \
-         $I_1 \\Omega / (I_0 \\cos \\theta)$, against the roots of (67) at $\\theta = {THETA}$ rad. As the spin grows the \
-         errors fall with the measured orders {:.3} (slow) and {:.3} (fast).",
-        order(&slow),
-        order(&fast),
-    );
-    let legend = vec![
-        entry(1, false, true, "slow, $mgl / (I_1 \\Omega)$".to_owned()),
-        entry(2, true, true, "fast, $I_1 \\Omega / (I_0 \\cos \\theta)$".to_owned()),
-    ];
+    let title = t.precession_title;
+    let [slow_order, fast_order] = [&slow, &fast].map(|points| format!("{:.3}", order(points)));
+    let places: [(&str, &dyn Display); 3] = [("theta", &THETA), ("slow", &slow_order), ("fast", &fast_order)];
+    let caption = with(t.precession_caption, &places);
+    let legend = vec![entry(1, false, true, t.slow.to_owned()), entry(2, true, true, t.fast.to_owned())];
     let series = [
         Series { colour: 1, dashed: false, markers: true, points: slow },
         Series { colour: 2, dashed: true, markers: true, points: fast },
     ];
-    let head = ["$\\Omega$ in rad/s", "slow root", "error", "fast root", "error"].map(String::from).to_vec();
-    let svg = plot(title, &spin_axis(), &error_axis(), &series)?;
+    let head = [t.spin, t.slow_root, t.error, t.fast_root, t.error].map(String::from).to_vec();
+    let svg = plot(title, &spin_axis(t), &error_axis(t), &series)?;
     Ok(chart("precession", title, caption, svg, legend, Table { head, rows }))
 }
 
-fn nutation() -> Result<Chart, ChartError> {
+fn nutation(t: &ChartWords) -> Result<Chart, ChartError> {
     let (mut let_go, mut small, mut rows) = (Vec::new(), Vec::new(), Vec::new());
     for spin in spins() {
         let exact = TOP.nutation(THETA, 0.0, spin).ok_or(ChartError::NoNutation { theta: THETA, spin })?.frequency;
@@ -230,33 +232,26 @@ fn nutation() -> Result<Chart, ChartError> {
         let values = [spin, approximation, exact, errors[0], linear, errors[1]];
         rows.push(values.iter().map(|v| number(*v, 4)).collect());
     }
-    let title = "Frequency of nutation against the exact motion";
-    let caption = format!(
-        "Relative error of the frequency $I_1 \\Omega / I_0$, (82), against the exact motion of a top let go at \
-         $\\theta = {THETA}$ rad, and against an infinitesimal nutation about slow steady precession. As the spin grows the \
-         errors fall with the measured orders {:.3} and {:.3}.",
-        order(&let_go),
-        order(&small),
-    );
-    let legend = vec![
-        entry(1, false, true, "let go from rest".to_owned()),
-        entry(2, true, true, "infinitesimal nutation".to_owned()),
-    ];
+    let title = t.nutation_title;
+    let [rest_order, small_order] = [&let_go, &small].map(|points| format!("{:.3}", order(points)));
+    let places: [(&str, &dyn Display); 3] = [("theta", &THETA), ("let_go", &rest_order), ("small", &small_order)];
+    let caption = with(t.nutation_caption, &places);
+    let legend = vec![entry(1, false, true, t.let_go.to_owned()), entry(2, true, true, t.infinitesimal.to_owned())];
     let series = [
         Series { colour: 1, dashed: false, markers: true, points: let_go },
         Series { colour: 2, dashed: true, markers: true, points: small },
     ];
-    let head = ["$\\Omega$ in rad/s", "$I_1 \\Omega / I_0$ in rad/s", "let go", "error", "infinitesimal", "error"];
-    let svg = plot(title, &spin_axis(), &error_axis(), &series)?;
+    let head = [t.spin, t.frequency, t.let_go_head, t.error, t.infinitesimal_head, t.error];
+    let svg = plot(title, &spin_axis(t), &error_axis(t), &series)?;
     Ok(chart("nutation", title, caption, svg, legend, Table { head: head.map(String::from).to_vec(), rows }))
 }
 
-fn spin_axis() -> Axis {
-    Axis { label: "spin Ω in rad/s", range: 9.5..1050.0, logarithmic: true }
+fn spin_axis(t: &ChartWords) -> Axis {
+    Axis { label: t.spin_axis, range: 9.5..1050.0, logarithmic: true }
 }
 
-fn error_axis() -> Axis {
-    Axis { label: "relative error", range: 1e-6..1.0, logarithmic: true }
+fn error_axis(t: &ChartWords) -> Axis {
+    Axis { label: t.relative_error, range: 1e-6..1.0, logarithmic: true }
 }
 
 fn entry(colour: u8, dashed: bool, markers: bool, label: String) -> LegendEntry {
@@ -287,7 +282,8 @@ mod tests {
 
     #[test]
     fn approximations_have_order_two() {
-        for chart in [precession().unwrap(), nutation().unwrap()] {
+        let t = Language::English.chart_words();
+        for chart in [precession(t).unwrap(), nutation(t).unwrap()] {
             println!("{}", chart.caption);
             let spin = |row: &[String]| row[0].parse::<f64>().unwrap();
             assert_eq!(spin(&chart.table.rows[0]), 10.0);
@@ -303,8 +299,8 @@ mod tests {
 
     #[test]
     fn charts_are_the_same_each_time_and_have_no_colours_of_their_own() {
-        let charts = heavy_top().unwrap();
-        assert_eq!(charts, heavy_top().unwrap());
+        let charts = heavy_top(Language::Japanese).unwrap();
+        assert_eq!(charts, heavy_top(Language::Japanese).unwrap());
         for chart in charts {
             assert!(!chart.svg.contains('#'), "{}", chart.svg);
             assert!(chart.table.rows.iter().all(|row| row.len() == chart.table.head.len()));

@@ -28,23 +28,16 @@ const LINK: RGBColor = RGBColor(10, 0, 1);
 
 /// One of the two scales, from its left end to its right one.
 struct Scale {
-    title: &'static str,
     pixels: (i32, i32),
     values: (f64, f64),
     logarithmic: bool,
     ticks: &'static [f64],
 }
 
-const BITS: Scale = Scale {
-    title: "bits lost",
-    pixels: (30, 600),
-    values: (0.0, 53.0),
-    logarithmic: false,
-    ticks: &[0.0, 10.0, 20.0, 30.0, 40.0, 53.0],
-};
+const BITS: Scale =
+    Scale { pixels: (30, 600), values: (0.0, 53.0), logarithmic: false, ticks: &[0.0, 10.0, 20.0, 30.0, 40.0, 53.0] };
 
 const TIME: Scale = Scale {
-    title: "ns for a state",
     pixels: (670, 930),
     values: (1.0, 10_000.0),
     logarithmic: true,
@@ -62,16 +55,16 @@ impl Scale {
 
 type Area<'a> = DrawingArea<SVGBackend<'a>, plotters::coord::Shift>;
 
-/// Draws the rows: a dot before, a ring after, and a stroke at the condition.
-pub(super) fn draw(title: &str, rows: &[Row]) -> Result<String, ChartError> {
+/// Draws the rows: a dot before, a ring after, and a stroke at the condition. The scales are those of bits and of time.
+pub(super) fn draw(title: &str, [bits, time]: [&str; 2], rows: &[Row]) -> Result<String, ChartError> {
     let height = TOP + BOTTOM + ROW * rows.len() as i32;
     let size = (WIDTH as u32, height as u32);
     let mut svg = String::new();
     {
         let area = SVGBackend::with_string(&mut svg, size).into_drawing_area();
-        grid(&area, &BITS, height)?;
+        grid(&area, &BITS, bits, height)?;
         if rows.iter().any(|r| r.nanoseconds.is_some()) {
-            grid(&area, &TIME, height)?;
+            grid(&area, &TIME, time, height)?;
         }
         for (row, k) in rows.iter().zip(0..) {
             of_row(&area, row, TOP + ROW * k)?;
@@ -85,8 +78,8 @@ fn text<'a>(string: String, place: (i32, i32)) -> Text<'a, (i32, i32), String> {
     Text::new(string, place, ("sans-serif", TEXT).into_font().color(&INK))
 }
 
-fn grid(area: &Area, scale: &Scale, height: i32) -> Result<(), ChartError> {
-    area.draw(&text(scale.title.to_owned(), (scale.pixels.0, 8))).map_err(ChartError::drawing)?;
+fn grid(area: &Area, scale: &Scale, title: &str, height: i32) -> Result<(), ChartError> {
+    area.draw(&text(title.to_owned(), (scale.pixels.0, 8))).map_err(ChartError::drawing)?;
     for tick in scale.ticks {
         let x = scale.place(*tick);
         let line = PathElement::new([(x, TOP - 4), (x, height - BOTTOM)], GRID.stroke_width(2));

@@ -6,7 +6,7 @@
 use super::math;
 use super::names::ENTRY;
 use super::words::{self, Words};
-use super::{Options, ReportError, Run, view};
+use super::{Language, Options, ReportError, Run, view};
 use base64::Engine;
 use base64::engine::general_purpose::STANDARD;
 use serde::Serialize;
@@ -42,6 +42,8 @@ const TEMPLATES: [(&str, &str); 23] = [
 ];
 
 const STYLE: &str = include_str!("../../templates/style.css");
+/// Of the pages on speed and on lost digits.
+const MEASURED_STYLE: &str = include_str!("../../templates/measured.css");
 /// For filtering, searching and copying only.
 const SCRIPT: &str = include_str!("../../templates/report.js");
 
@@ -71,7 +73,7 @@ struct Common {
 /// [`ReportError::Template`]: a template does not fit the data, which is a defect of Kenzan.
 pub fn pages(run: &Run, options: Options) -> Result<Vec<Page>, ReportError> {
     let site = view::site(run, options);
-    let press = Press::new(options)?;
+    let press = Press::new(options.language, "")?;
     let mut pages = Vec::new();
     for document in &site.documents {
         let mut page = |file: &str, template: &str| {
@@ -92,6 +94,23 @@ pub fn pages(run: &Run, options: Options) -> Result<Vec<Page>, ReportError> {
     Ok(pages)
 }
 
+/// The page of another command, from the same base: its template, those that it includes and its style beside that of all
+/// pages; `words` are its own, `page` is what it shows.
+pub(super) fn measured<W: Serialize, T: Serialize>(
+    language: Language,
+    templates: &[(&'static str, &'static str)],
+    words: &W,
+    page: &T,
+) -> Result<String, ReportError> {
+    let mut press = Press::new(language, MEASURED_STYLE)?;
+    press.tera.add_raw_templates(templates.iter().copied())?;
+    let mut context = press.common.clone();
+    context.extend(Context::from_serialize(page)?);
+    context.insert("t", words);
+    let name = templates.first().map_or("", |(name, _)| name);
+    Ok(press.tera.render(name, &context)?)
+}
+
 /// The templates with what all pages share.
 struct Press {
     tera: Tera,
@@ -99,17 +118,18 @@ struct Press {
 }
 
 impl Press {
-    fn new(options: Options) -> Result<Self, ReportError> {
+    /// `more` is style beside that of all pages.
+    fn new(language: Language, more: &str) -> Result<Self, ReportError> {
         let mut tera = Tera::new();
         tera.register_filter("fill", fill);
         tera.register_filter("length_class", |html: &str, _: Kwargs, _: &State| math::length_class(html));
         tera.add_raw_templates(TEMPLATES)?;
-        let style = unix_lines(STYLE);
+        let style = unix_lines(&format!("{STYLE}{more}"));
         let script = unix_lines(SCRIPT);
         let common = Common {
             version: env!("CARGO_PKG_VERSION"),
-            tongue: options.language.tag(),
-            w: options.language.words(),
+            tongue: language.tag(),
+            w: language.words(),
             style_policy: hash(&style),
             style,
         };

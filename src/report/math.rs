@@ -26,17 +26,18 @@ impl Renderer {
 
     /// A displayed formula: MathML, or the source itself where katex cannot read it.
     pub(super) fn display(&self, latex: &str) -> String {
-        self.mathml(latex, true).unwrap_or_else(|| source(latex))
+        self.mathml(latex, latex, true).unwrap_or_else(|| source(latex))
     }
 
     /// A formula within a line.
     pub(super) fn inline(&self, latex: &str) -> String {
-        self.mathml(latex, false).unwrap_or_else(|| source(latex))
+        self.mathml(latex, latex, false).unwrap_or_else(|| source(latex))
     }
 
-    /// A displayed formula in which [`marked`] parts have the class `changed`; `None` where katex cannot read it.
-    pub(super) fn marked(&self, latex: &str) -> Option<String> {
-        self.mathml(latex, true)
+    /// A displayed formula, given with and without marks, in which [`marked`] parts have the class `changed`; `None` where
+    /// katex cannot read it.
+    pub(super) fn marked(&self, marked: &str, latex: &str) -> Option<String> {
+        self.mathml(marked, latex, true)
     }
 
     /// Prose in which `$...$` is mathematics and `` `...` `` is code.
@@ -55,7 +56,14 @@ impl Renderer {
         html + &escape(rest)
     }
 
-    fn mathml(&self, latex: &str, display: bool) -> Option<String> {
+    /// With the source as `alttext`, for those who hear the page or copy from it.
+    fn mathml(&self, latex: &str, source: &str, display: bool) -> Option<String> {
+        let html = self.bare_mathml(latex, display)?;
+        let (element, rest) = html.split_at_checked("<math".len())?;
+        Some(format!("{element} alttext=\"{}\"{rest}", escape(source.trim())))
+    }
+
+    fn bare_mathml(&self, latex: &str, display: bool) -> Option<String> {
         if latex.len() > LONGEST || nesting(latex) > DEEPEST {
             return None;
         }
@@ -114,7 +122,8 @@ mod tests {
     fn formulas_become_mathml_the_same_each_time() {
         let latex = r"\dot{\varphi} = \left( \frac{mgl}{I_1 \Omega} \right)^2 \quad \text{歳差運動が遅い場合}";
         let first = Renderer::new().display(latex);
-        assert!(first.starts_with("<math display=\"block\"><mrow>"), "{first}");
+        let alttext = format!("<math alttext=\"{latex}\" display=\"block\"><mrow>");
+        assert!(first.starts_with(&alttext), "{first}");
         assert!(first.ends_with("</mrow></math>"), "{first}");
         assert!(first.contains("歳差運動が遅い場合"));
         assert!(!first.contains("annotation") && !first.contains("xmlns"));
@@ -143,11 +152,18 @@ mod tests {
             let html = Renderer::new().display(latex);
             let tags = html.split('<').skip(1).map(|t| t.split('>').next().unwrap_or_default());
             for tag in tags {
+                let tag = without_alttext(tag);
                 for bad in ["script", "img", "onclick", "onerror", "href=", "src=", "position", " style="] {
                     assert!(!tag.contains(bad), "{latex} gave <{tag}>");
                 }
             }
         }
+    }
+
+    /// The attribute's value has no quotes, so it ends where it should.
+    fn without_alttext(tag: &str) -> String {
+        let Some((before, rest)) = tag.split_once(" alttext=\"") else { return tag.to_owned() };
+        format!("{before}{}", rest.split_once('"').unwrap().1)
     }
 
     #[test]
@@ -173,7 +189,7 @@ mod tests {
     #[test]
     fn prose_may_hold_mathematics_and_code() {
         let html = Renderer::new().prose("if $a<b$ & `x<y`, not 5$");
-        assert!(html.starts_with("if <math>"), "{html}");
+        assert!(html.starts_with("if <math alttext=\"a&lt;b\">"), "{html}");
         assert!(html.ends_with(" &amp; <code>x&lt;y</code>, not 5$"), "{html}");
     }
 
@@ -206,13 +222,15 @@ mod tests {
 
     #[test]
     fn marks_become_classes() {
-        let html = Renderer::new().marked(&format!("a = b^{}", marked("2"))).unwrap();
+        let html = Renderer::new().marked(&format!("a = b^{}", marked("2")), "a = b^2").unwrap();
+        assert!(html.starts_with("<math alttext=\"a = b^2\""), "{html}");
         assert!(html.contains("<mstyle class=\"changed\"><mn>2</mn></mstyle>"), "{html}");
     }
 
     #[test]
     fn rows_and_cells_stay_outside_of_marks() {
-        let (left, _) = mark_by(r"a &= b \\ &= c", r"d", [marked; 2]).unwrap();
-        assert!(Renderer::new().marked(&left).is_some_and(|html| html.contains("changed")), "{left}");
+        let printed = r"a &= b \\ &= c";
+        let (left, _) = mark_by(printed, r"d", [marked; 2]).unwrap();
+        assert!(Renderer::new().marked(&left, printed).is_some_and(|html| html.contains("changed")), "{left}");
     }
 }

@@ -6,6 +6,7 @@ pub mod annotations;
 pub mod charts;
 mod counts;
 mod dumbbells;
+mod gone;
 mod graph;
 pub mod html;
 pub mod json;
@@ -27,6 +28,7 @@ mod view_equation;
 mod view_errata;
 mod view_inferred;
 mod view_map;
+mod view_overview;
 pub mod words;
 mod write;
 
@@ -48,11 +50,14 @@ pub struct Run {
     pub precision: Option<u32>,
     /// The documents in the order in which they were given.
     pub documents: Vec<DocumentReport>,
-    /// The charts.
-    pub charts: Vec<Chart>,
+    /// What draws the charts, in the language of the report; none where there are no charts.
+    pub charts: Option<Draw>,
     /// The time that the whole run took, in microseconds.
     pub micros: u64,
 }
+
+/// Draws charts in a language.
+pub type Draw = fn(Language) -> Result<Vec<Chart>, charts::ChartError>;
 
 /// What a report may leave out.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -49,12 +49,12 @@ fn summarize(text: &mut String, document: &DocumentReport, language: Language, p
         writeln!(text, "  {line}")?;
     }
     for problem in &document.problems {
-        writeln!(text, "  {} {}", paint.verdict(Verdict::Unreadable, "!"), one_line(&problem.text))?;
+        writeln!(text, "  {} {}", paint.verdict(Verdict::Unreadable, "!"), one_line(&language.say_problem(&problem.text)))?;
     }
     for judgement in document.equations.iter().filter(|j| is_shown(j)) {
         line(text, document, judgement, language, paint)?;
     }
-    mutants(text, document, w)?;
+    mutants(text, document, language)?;
     writeln!(text)
 }
 
@@ -151,11 +151,11 @@ fn line(
         writeln!(text, "      {}", with(w.terminal_example, &[("left", &c.lhs), ("right", &c.rhs)]))?;
     }
     if let Some(certificate) = j.counterexample.as_ref().and_then(|c| c.certificate.as_ref()) {
-        let certificate = one_line(&certificate.to_string());
+        let certificate = one_line(&language.say(&certificate.to_string()));
         writeln!(text, "      {}", with(w.terminal_certified, &[("text", &certificate)]))?;
     }
     for finding in &j.dimension_findings {
-        let message = one_line(&finding.message);
+        let message = one_line(&language.say(&finding.message));
         writeln!(text, "      {}", with(w.terminal_dimension_finding, &[("text", &message)]))?;
     }
     for suggestion in &j.suggestions {
@@ -171,7 +171,8 @@ fn line(
 }
 
 /// How many mutants the checks let pass, and where.
-fn mutants(text: &mut String, document: &DocumentReport, w: &Words) -> std::fmt::Result {
+fn mutants(text: &mut String, document: &DocumentReport, language: Language) -> std::fmt::Result {
+    let w = language.words();
     let all: Vec<_> = document.equations.iter().filter_map(|j| j.sensitivity.as_ref().map(|s| (j, s))).collect();
     if all.is_empty() {
         return Ok(());
@@ -180,7 +181,7 @@ fn mutants(text: &mut String, document: &DocumentReport, w: &Words) -> std::fmt:
     let (killed, different) = (sum(|s| s.killed), sum(|s| s.total - s.equivalent - s.weaker));
     writeln!(text, "  {}", with(w.terminal_mutants, &[("n", &killed), ("m", &different)]))?;
     for (j, s) in all.iter().filter(|(_, s)| !s.survivors.is_empty()) {
-        let edits: Vec<String> = s.survivors.iter().take(3).map(|e| one_line(e)).collect();
+        let edits: Vec<String> = s.survivors.iter().take(3).map(|e| one_line(&language.say(e))).collect();
         let more = if s.survivors.len() > 3 { " ..." } else { "" };
         let edits = edits.join("; ") + more;
         let places: [(&str, &dyn Display); 3] =

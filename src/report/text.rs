@@ -73,6 +73,23 @@ pub(super) fn language(text: &str) -> Option<&'static str> {
     text.chars().any(japanese).then_some("ja")
 }
 
+/// A text filled up with spaces to so many columns; letters of Chinese and Japanese take two.
+pub(super) fn padded(text: &str, columns: usize) -> String {
+    let taken: usize = text.chars().map(columns_of).sum();
+    format!("{text}{}", " ".repeat(columns.saturating_sub(taken)))
+}
+
+/// The same, with the spaces before it.
+pub(super) fn padded_left(text: &str, columns: usize) -> String {
+    let taken: usize = text.chars().map(columns_of).sum();
+    format!("{}{text}", " ".repeat(columns.saturating_sub(taken)))
+}
+
+/// How many columns a letter takes.
+pub(super) fn columns_of(letter: char) -> usize {
+    if letter < '\u{1100}' || matches!(letter, '\u{2000}'..='\u{2e7f}') { 1 } else { 2 }
+}
+
 /// Escapes a text for HTML, attribute values included.
 pub(super) fn escape(text: &str) -> String {
     let mut escaped = String::with_capacity(text.len());

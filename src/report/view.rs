@@ -109,7 +109,9 @@ pub(super) fn site(run: &Run, options: Options) -> Site {
     let mut builder = Builder::new(run, options);
     let files = names::files(run.documents.iter().map(|d| d.name.as_str()));
     let alone = run.documents.len() == 1;
-    let charts = |builder: &Builder| run.charts.iter().map(|c| view_charts::view(c, &builder.renderer)).collect();
+    // A chart that cannot be drawn costs no report.
+    let drawn = run.charts.and_then(|draw| draw(options.language).ok()).unwrap_or_default();
+    let charts = |builder: &Builder| drawn.iter().map(|c| view_charts::view(c, &builder.renderer)).collect();
     let mut documents: Vec<_> =
         run.documents.iter().zip(files).map(|(d, files)| builder.document(d, files, alone)).collect();
     if let [only] = documents.as_mut_slice() {
@@ -211,7 +213,11 @@ impl<'r> Builder<'r> {
             lang: language(&document.title),
             lead: self.lead(counts.total, alone),
             unexpected: self.unexpected(counts),
-            problems_html: document.problems.iter().map(|p| self.renderer.prose(&p.text)).collect(),
+            problems_html: document
+                .problems
+                .iter()
+                .map(|p| self.renderer.prose(&self.options.language.say_problem(&p.text)))
+                .collect(),
             dimensions: view_dimensions::summary(document, &self.renderer),
             counts,
             shares: self.shares(counts),

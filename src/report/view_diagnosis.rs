@@ -31,8 +31,9 @@ pub(super) fn view(j: &Judgement, renderer: &Renderer, language: Language) -> Di
     let words = |edit: &String| renderer.prose(&language.say(edit).replace('`', "$"));
     let survivors = j.sensitivity.iter().flat_map(|s| &s.survivors);
     let suggestion = |s: &crate::check::verdict::Suggestion| {
-        let marks = mark_by(&s.printed, &s.latex, [math::marked; 2])
-            .and_then(|(before, after)| Some((renderer.marked(&before)?, renderer.marked(&after)?)));
+        let marks = mark_by(&s.printed, &s.latex, [math::marked; 2]).and_then(|(before, after)| {
+            Some((renderer.marked(&before, &s.printed)?, renderer.marked(&after, &s.latex)?))
+        });
         let (printed_html, math_html) =
             marks.unwrap_or_else(|| (renderer.display(&s.printed), renderer.display(&s.latex)));
         SuggestionView { printed_html, math_html, edit_html: words(&s.edit), latex: s.latex.clone() }

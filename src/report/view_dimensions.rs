@@ -1,7 +1,7 @@
 //! What the templates are given of dimensions.
 
+use super::Language;
 use super::math::Renderer;
-use super::words::Words;
 use crate::check::verdict::{DimensionFinding, DimensionStatus, DocumentReport, Judgement};
 use serde::Serialize;
 
@@ -42,14 +42,15 @@ struct Inferred {
 }
 
 /// The view of an equation's dimensions.
-pub(super) fn view(j: &Judgement, renderer: &Renderer, words: &'static Words) -> View {
+pub(super) fn view(j: &Judgement, renderer: &Renderer, language: Language) -> View {
+    let words = language.words();
     let fact = match j.dimension {
         DimensionStatus::Ok => Some(words.dimensions_ok),
         DimensionStatus::Mismatch => Some(words.dimensions_differ),
         DimensionStatus::Unchecked => None,
     };
     let finding = |f: &DimensionFinding| Finding {
-        message_html: renderer.prose(&f.message),
+        message_html: renderer.prose(&language.say(&f.message)),
         terms: (f.terms.iter())
             .map(|t| Term { math_html: renderer.inline(&t.latex), dimension: t.dimension.clone() })
             .collect(),

@@ -129,7 +129,7 @@ impl Builder<'_> {
         let w = self.words;
         let mut facts = facts(w, j.strength, j.bits, only.and_then(|l| l.residual), j.states);
         facts.extend(only.and_then(|l| failing_states(w, l)));
-        facts.extend(exactness(w, j));
+        facts.extend(self.exactness(j));
         facts.extend(j.lost_bits.map(|l| with(w.doubles_lose, &[("mean", &l.mean), ("worst", &l.worst)])));
         facts.extend(Judgement::only_restates(&j.links).then(|| w.as_a_premise_says.to_owned()));
         let reason = j.reason.as_ref().or_else(|| only.and_then(|l| l.reason.as_ref()));
@@ -156,7 +156,7 @@ impl Builder<'_> {
             reason_html: reason.map(|r| self.reason(r)),
             why_html: text::reason(j).map(|r| self.reason(r)),
             links: if only.is_some() { Vec::new() } else { j.links.iter().map(|l| self.link(l)).collect() },
-            dimensions: view_dimensions::view(j, &self.renderer, w),
+            dimensions: view_dimensions::view(j, &self.renderer, self.options.language),
             counterexample: j.counterexample.as_ref().map(|c| self.counterexample(c)),
             order: only.and_then(|l| l.order.as_ref()).map(|o| self.order(o)),
             correction,
@@ -183,8 +183,9 @@ impl Builder<'_> {
         let Some(Correction { latex, verdict, links, .. }) = &j.correction else { return (plain.to_owned(), None) };
         // A reading stands for the printed formula; the correction is compared with what was judged.
         let judged = j.reading.as_ref().unwrap_or(&j.latex);
-        let marks = mark_by(judged, latex, [math::marked; 2])
-            .and_then(|(before, after)| Some((self.renderer.marked(&before)?, self.renderer.marked(&after)?)));
+        let marks = mark_by(judged, latex, [math::marked; 2]).and_then(|(before, after)| {
+            Some((self.renderer.marked(&before, judged)?, self.renderer.marked(&after, latex)?))
+        });
         let (printed, corrected) =
             marks.unwrap_or_else(|| (self.renderer.display(judged), self.renderer.display(latex)));
         let links = links.iter().map(|l| self.link(l)).collect();
@@ -199,7 +200,7 @@ impl Builder<'_> {
         let mut facts = facts(w, link.strength, link.bits, link.residual, link.states);
         facts.extend(failing_states(w, link));
         facts.extend(link.exact.map(|e| false_below(w, e.log2_error)));
-        facts.extend(link.inexact.as_ref().map(|why| with(w.not_exact, &[("why", why)])));
+        facts.extend(self.inexact(link));
         facts.extend(link.restated.then(|| w.as_a_premise_says.to_owned()));
         LinkView {
             badge: self.badge(link.verdict),
@@ -211,18 +212,33 @@ impl Builder<'_> {
         }
     }
 
+    /// The bound on the chance of a false exact verdict, or why a single link has none.
+    fn exactness(&self, j: &Judgement) -> Option<String> {
+        if j.strength == Some(Strength::Exact) {
+            let bounds = j.links.iter().filter_map(|l| l.exact).map(|e| e.log2_error);
+            return bounds.max().map(|e| false_below(self.words, e));
+        }
+        let [link] = j.links.as_slice() else { return None };
+        self.inexact(link)
+    }
+
+    fn inexact(&self, link: &LinkJudgement) -> Option<String> {
+        let why = self.options.language.say(link.inexact.as_ref()?);
+        Some(with(self.words.not_exact, &[("why", &why)]))
+    }
+
     fn counterexample(&self, c: &Counterexample) -> CounterexampleView {
         let value = |a: &crate::check::verdict::Assignment| Value {
             symbol_html: self.renderer.inline(&a.symbol),
             value: a.value.clone(),
         };
         CounterexampleView {
-            component_html: c.component.as_ref().map(|text| self.component(text)),
+            component_html: c.component.as_ref().map(|text| self.component(&self.options.language.say(text))),
             state: c.state.iter().map(value).collect(),
             lhs: c.lhs.clone(),
             rhs: c.rhs.clone(),
             certificate: c.certificate.as_ref().map(|c| view_certificate::view(c, &self.renderer, self.words)),
-            uncertified: c.uncertified.clone(),
+            uncertified: c.uncertified.as_ref().map(|why| self.options.language.say(why).into_owned()),
         }
     }
 
@@ -261,15 +277,6 @@ fn facts(w: &Words, s: Option<Strength>, bits: Option<u32>, residual: Option<f64
     facts.extend(residual.map(|r| with(w.residual, &[("value", &number(r, 2))])));
     facts.extend((states > 0).then(|| count(w.states, states)));
     facts
-}
-
-/// The bound on the chance of a false exact verdict, or why a single link has none.
-fn exactness(w: &Words, j: &Judgement) -> Option<String> {
-    if j.strength == Some(Strength::Exact) {
-        return j.links.iter().filter_map(|l| l.exact).map(|e| e.log2_error).max().map(|e| false_below(w, e));
-    }
-    let [link] = j.links.as_slice() else { return None };
-    link.inexact.as_ref().map(|why| with(w.not_exact, &[("why", why)]))
 }
 
 /// The bound on the chance of a false exact verdict: `false with a chance below 2⁻¹⁰²`.

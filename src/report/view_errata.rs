@@ -117,8 +117,7 @@ fn differences(j: &Judgement, builder: &Builder<'_>) -> Vec<String> {
     let counted = worst.map(|l| escape(&with(w.sheet_differ, &[("n", &l.failing_states), ("m", &l.states)])));
     let certified = (j.strength == Some(Strength::Certified)).then(|| w.sheet_certified.to_owned());
     let reason = super::text::reason(j).map(|r| builder.reason(r));
-    let dimensions =
-        j.dimension_findings.iter().map(|f| with(w.dimensions, &[("text", &builder.renderer.prose(&f.message))]));
+    let dimensions = j.dimension_findings.iter().map(|f| with(w.dimensions, &[("text", &builder.reason(&f.message))]));
     counted.into_iter().chain(certified).chain(reason).chain(dimensions).collect()
 }
 

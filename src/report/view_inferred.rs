@@ -56,14 +56,16 @@ pub(super) fn suspect(
     premise: impl Fn(&String) -> Premise,
 ) -> SuspectView {
     let own = suspect.label == j.label;
-    let marked = printed(suspect).and_then(|printed| mark_by(&printed, &suspect.latex, [math::marked; 2]));
+    let printed = printed(suspect);
+    let marked = printed.as_ref().and_then(|printed| mark_by(printed, &suspect.latex, [math::marked; 2]));
     let (before, after) = marked.unzip();
-    let show = |marked: Option<String>| marked.and_then(|m| builder.renderer.marked(&m));
+    let show =
+        |marked: Option<String>, latex: Option<&String>| builder.renderer.marked(marked.as_deref()?, latex?.as_str());
     SuspectView {
         edit_html: builder.renderer.prose(&builder.options.language.say(&suspect.edit).replace('`', "$")),
         other: (!own).then(|| suspect.label.clone()),
-        printed_html: if own { show(before) } else { None },
-        math_html: show(after).unwrap_or_else(|| builder.renderer.display(&suspect.latex)),
+        printed_html: if own { show(before, printed.as_ref()) } else { None },
+        math_html: show(after, Some(&suspect.latex)).unwrap_or_else(|| builder.renderer.display(&suspect.latex)),
         latex: suspect.latex.clone(),
         premises: suspect.premises.iter().map(premise).collect(),
     }

@@ -5,6 +5,7 @@ use super::graph::Graph;
 use super::layers::{self, Drawing, Node, Spacing};
 use super::text::escape;
 use super::view::{Badge, Builder, Section};
+use super::view_overview::{Overview, overview};
 use super::words::{Words, with};
 use crate::check::verdict::{DocumentReport, Verdict};
 use serde::Serialize;
@@ -24,6 +25,8 @@ const MARGIN: f64 = 6.0;
 /// A document's map.
 #[derive(Serialize)]
 pub(super) struct Map {
+    /// Of all sections, where there are several.
+    overview: Option<Overview>,
     figures: Vec<Figure>,
     /// How many fail, and how many are endangered.
     summary: String,
@@ -89,7 +92,12 @@ impl<'a> Mapper<'a> {
         }
         let failing = self.document.equations.iter().filter(|e| e.verdict == Verdict::Fails).count();
         let endangered = self.graph.threats.iter().filter(|t| !t.is_empty()).count();
-        Map { figures, summary: with(self.w.map_summary, &[("failing", &failing), ("endangered", &endangered)]) }
+        let overview = overview(self.document, &self.graph, sections, self.w);
+        Map {
+            overview,
+            figures,
+            summary: with(self.w.map_summary, &[("failing", &failing), ("endangered", &endangered)]),
+        }
     }
 
     fn figure(&self, section: &Section, part: &[usize], number: Option<(usize, usize)>) -> Figure {
@@ -286,7 +294,7 @@ fn curve(way: &[(f64, f64)]) -> String {
 }
 
 /// A length with one digit after the point: the same on every machine.
-fn short(value: f64) -> String {
+pub(super) fn short(value: f64) -> String {
     let text = format!("{value:.1}");
     text.strip_suffix(".0").map_or(text.clone(), str::to_owned)
 }

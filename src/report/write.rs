@@ -12,7 +12,7 @@ use std::time::Duration;
 
 use super::html::Page;
 use super::names::ENTRY;
-use super::{ReportError, Written};
+use super::{ReportError, Written, gone};
 
 /// After this time a file that was never renamed is no other run's work, but what a killed one left.
 const STALE: Duration = Duration::from_secs(3600);
@@ -24,12 +24,15 @@ pub(super) fn pair(out: &Path, name: &str, html: &str, json: &str) -> Result<Wri
     Ok(Written { html: out.join(page), json: out.join(data) })
 }
 
-/// Writes a report's pages, of which the last is where to begin, and its data.
+/// Writes a report's pages, of which the last is where to begin, and its data; pages of the report before it that have no
+/// document any more are removed afterwards.
 pub(super) fn report(out: &Path, pages: &[Page], json: &str) -> Result<Written, ReportError> {
     const DATA: &str = "report.json";
     let all: Vec<(&str, &str)> =
         pages.iter().map(|p| (p.file.as_str(), p.html.as_str())).chain([(DATA, json)]).collect();
+    let before = gone::pages(out, DATA);
     files(out, &all)?;
+    gone::remove(out, &before, &all.iter().map(|(name, _)| *name).collect::<Vec<_>>());
     Ok(Written { html: out.join(ENTRY), json: out.join(DATA) })
 }
 

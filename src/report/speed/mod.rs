@@ -5,13 +5,15 @@ mod chart;
 mod tests;
 mod view;
 
+use std::fmt::Display;
 use std::path::Path;
 
 use serde::Serialize;
-use tera::{Context, Tera};
 
+use super::text::padded;
+use super::words::with;
 use super::write::pair;
-use super::{ReportError, Written};
+use super::{Language, ReportError, Written, html};
 use crate::scene::Scene;
 use crate::scene::drift::Drift;
 use crate::scene::speed::{Pick, Run, Sweep, front};
@@ -19,12 +21,7 @@ use crate::scene::speed::{Pick, Run, Sweep, front};
 /// The version of `speed.json`. It rises when a field changes its meaning or goes.
 pub const SCHEMA: u32 = 1;
 
-const STYLE: &str = include_str!("../../../templates/style.css");
-
-const TEMPLATES: [(&str, &str); 2] = [
-    ("speed.html", include_str!("../../../templates/speed.html")),
-    ("chart.html", include_str!("../../../templates/chart.html")),
-];
+const TEMPLATES: [(&str, &str); 1] = [("speed.html", include_str!("../../../templates/speed.html"))];
 
 /// What was measured of a scene.
 #[derive(Clone, Debug)]
@@ -176,50 +173,48 @@ fn data(measured: &Measured) -> SceneData<'_> {
 ///
 /// # Errors
 /// [`ReportError::Template`]: a template does not fit the data, which is a defect of Kenzan.
-pub fn html(speed: &Speed) -> Result<String, ReportError> {
-    let mut tera = Tera::new();
-    tera.add_raw_templates(TEMPLATES)?;
-    let mut context = Context::from_serialize(&view::page(speed))?;
-    context.insert("style", STYLE);
-    context.insert("w", super::Language::English.words());
-    Ok(tera.render("speed.html", &context)?)
+pub fn html(speed: &Speed, language: Language) -> Result<String, ReportError> {
+    html::measured(language, &TEMPLATES, language.speed_words(), &view::page(speed, language))
 }
 
 /// Writes `speed.html` and `speed.json` into the directory `out`, which is created if need be.
 ///
 /// # Errors
 /// [`ReportError`]
-pub fn write(speed: &Speed, out: &Path) -> Result<Written, ReportError> {
-    pair(out, "speed", &html(speed)?, &json(speed)?)
+pub fn write(speed: &Speed, out: &Path, language: Language) -> Result<Written, ReportError> {
+    pair(out, "speed", &html(speed, language)?, &json(speed)?)
 }
 
 /// How fast the constants' errors grow, in plain text.
-pub fn growth(drifts: &[Drift]) -> String {
+pub fn growth(drifts: &[Drift], language: Language) -> String {
     let line = |d: &Drift| {
         let (periods, error) = d.points.last().copied().unwrap_or_default();
         let exponent = d.exponent.map_or_else(|| "?".into(), |e| format!("{e:.2}"));
-        format!(
-            "{:<5} {:<38} {:<7} {error:.1e} after {periods:.0} periods, grows like t^{exponent}\n",
-            d.scene, d.method, d.constant
-        )
+        let (method, constant) = (language.say(&d.method), language.say(d.constant));
+        let places: [(&str, &dyn Display); 3] =
+            [("error", &format!("{error:.1e}")), ("periods", &format!("{periods:.0}")), ("exponent", &exponent)];
+        let grows = with(language.speed_words().terminal_growth, &places);
+        format!("{:<5} {} {} {grows}\n", d.scene, padded(&method, 38), padded(&constant, 7))
     };
     drifts.iter().map(line).collect()
 }
 
 /// What a scene takes for each error asked for, in plain text.
-pub fn table(measured: &Measured) -> String {
-    let mut text = format!("{}: {}\n", measured.scene().name, measured.scene().about);
+pub fn table(measured: &Measured, language: Language) -> String {
+    let mut text = format!("{}: {}\n", measured.scene().name, language.say(measured.scene().about));
     for pick in &measured.picks {
         let taken = match &pick.taken {
-            Ok(t) => format!(
-                "{:<16} in {:<14} error {:.1e}  {:>10.3} ms ({:.3} ms with the choice)",
-                t.model.name,
-                t.arithmetic.name(),
-                t.error,
-                t.seconds * 1e3,
-                pick.seconds * 1e3
-            ),
-            Err(why) => why.clone(),
+            Ok(t) => {
+                let places: [(&str, &dyn Display); 5] = [
+                    ("model", &padded(t.model.name, 16)),
+                    ("numbers", &padded(&language.say(&t.arithmetic.name()), 14)),
+                    ("error", &format!("{:.1e}", t.error)),
+                    ("time", &format!("{:>10.3}", t.seconds * 1e3)),
+                    ("all", &format!("{:.3}", pick.seconds * 1e3)),
+                ];
+                with(language.speed_words().terminal_taken, &places)
+            }
+            Err(why) => language.say(why).into_owned(),
         };
         text += &format!("  {:>6.0e}  {taken}\n", pick.asked);
     }

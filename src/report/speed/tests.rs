@@ -15,7 +15,7 @@ fn small() -> Speed {
 #[test]
 fn the_page_shows_each_model_and_its_data_the_numbers() {
     let speed = small();
-    let page = html(&speed).unwrap();
+    let page = html(&speed, Language::English).unwrap();
     for model in crate::scene::scene("top").unwrap().models {
         assert!(page.contains(&format!("<code>{}</code>", model.about().name)), "{}", model.about().name);
     }
@@ -40,5 +40,5 @@ fn what_cannot_be_met_is_said_in_words() {
     assert!(picks[0]["error"].as_f64().unwrap() <= 1e-6 && picks[0]["why_not"].is_null());
     let why = picks[1]["why_not"].as_str().unwrap_or_default();
     assert!(picks[1]["model"].is_null() && why.contains("cannot be met"), "{picks}");
-    assert!(table(&speed.scenes[0]).contains("cannot be met"));
+    assert!(table(&speed.scenes[0], Language::English).contains("cannot be met"));
 }

@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::super::math::Renderer;
 use super::super::text::number;
 use super::super::view_charts;
-use super::{Measured, Speed, chart};
+use super::{Language, Measured, Speed, chart};
 use crate::scene::speed::Pick;
 
 #[derive(Serialize)]
@@ -18,7 +18,7 @@ pub(super) struct Page {
 #[derive(Serialize)]
 struct Section {
     name: &'static str,
-    about: &'static str,
+    about: String,
     quantities: String,
     parameters: Vec<Setting>,
     models: Vec<Model>,
@@ -38,7 +38,7 @@ struct Setting {
 #[derive(Serialize)]
 struct Model {
     name: &'static str,
-    what: &'static str,
+    what: String,
     source: &'static str,
 }
 
@@ -52,22 +52,22 @@ struct Row {
     with_choice: String,
 }
 
-pub(super) fn page(speed: &Speed) -> Page {
+pub(super) fn page(speed: &Speed, language: Language) -> Page {
     let renderer = Renderer::new();
-    let scenes = speed.scenes.iter().map(|m| section(m, &renderer)).collect();
-    let drifts = chart::drifts(&speed.drifts).into_iter().filter_map(Result::ok);
+    let scenes = speed.scenes.iter().map(|m| section(m, &renderer, language)).collect();
+    let drifts = chart::drifts(&speed.drifts, language).into_iter().filter_map(Result::ok);
     let drifts = drifts.map(|c| view_charts::view(&c, &renderer)).collect();
     Page { version: env!("CARGO_PKG_VERSION"), scenes, drifts }
 }
 
-fn section(measured: &Measured, renderer: &Renderer) -> Section {
+fn section(measured: &Measured, renderer: &Renderer, language: Language) -> Section {
     let scene = measured.scene();
-    let chart = chart::chart(measured);
+    let chart = chart::chart(measured, language);
     let values = scene.parameters.iter().zip(&measured.sweep.parameters);
     let names = measured.sweep.quantities.iter().filter_map(|q| scene.quantities.get(*q)).map(|q| q.name);
     Section {
         name: scene.name,
-        about: scene.about,
+        about: language.say(scene.about).into_owned(),
         quantities: names.collect::<Vec<_>>().join(", "),
         parameters: values
             .map(|(p, v)| Setting { name: p.name, value: short(*v), unit: p.unit, about: p.about })
@@ -76,11 +76,11 @@ fn section(measured: &Measured, renderer: &Renderer) -> Section {
             .models
             .iter()
             .map(|m| m.about())
-            .map(|a| Model { name: a.name, what: a.what, source: a.source })
+            .map(|a| Model { name: a.name, what: language.say(a.what).into_owned(), source: a.source })
             .collect(),
         trouble: chart.as_ref().err().map(ToString::to_string),
         chart: chart.ok().map(|c| view_charts::view(&c, renderer)),
-        picks: measured.picks.iter().map(row).collect(),
+        picks: measured.picks.iter().map(|p| row(p, language)).collect(),
     }
 }
 
@@ -93,20 +93,20 @@ fn short(value: f64) -> String {
     }
 }
 
-fn row(pick: &Pick) -> Row {
+fn row(pick: &Pick, language: Language) -> Row {
     let (asked, with_choice) = (format!("{:.0e}", pick.asked), number(pick.seconds * 1e3, 3));
     match &pick.taken {
         Ok(taken) => Row {
             asked,
             model: taken.model.name.to_owned(),
-            numbers: taken.arithmetic.name(),
+            numbers: language.say(&taken.arithmetic.name()).into_owned(),
             error: format!("{:.1e}", taken.error),
             time: number(taken.seconds * 1e3, 3),
             with_choice,
         },
         Err(why) => Row {
             asked,
-            model: why.clone(),
+            model: language.say(why).into_owned(),
             numbers: String::new(),
             error: String::new(),
             time: String::new(),

@@ -3,25 +3,25 @@
 
 mod view;
 
+use std::fmt::Display;
 use std::path::Path;
 
 use serde::Serialize;
-use tera::{Context, Tera};
 
+use super::text::{padded, padded_left};
+use super::words::stability::StabilityWords;
+use super::words::with;
 use super::write::pair;
-use super::{Options, ReportError, Written};
+use super::{Language, Options, ReportError, Written, html};
 use crate::diagnose::stability::catalogue::Measured;
 use crate::diagnose::stability::survey::{Counts, Survey};
 
 /// The version of `stability.json`. It rises when a field changes its meaning or goes.
 pub const SCHEMA: u32 = 1;
 
-const STYLE: &str = include_str!("../../../templates/style.css");
-
-const TEMPLATES: [(&str, &str); 3] = [
+const TEMPLATES: [(&str, &str); 2] = [
     ("stability.html", include_str!("../../../templates/stability.html")),
     ("form.html", include_str!("../../../templates/form.html")),
-    ("chart.html", include_str!("../../../templates/chart.html")),
 ];
 
 /// What was found of documents and of the hard cases.
@@ -85,12 +85,8 @@ pub fn json(stability: &Stability, options: Options) -> Result<String, ReportErr
 /// # Errors
 /// [`ReportError::Template`]: a template does not fit the data, which is a defect of Kenzan.
 pub fn html(stability: &Stability, options: Options) -> Result<String, ReportError> {
-    let mut tera = Tera::new();
-    tera.add_raw_templates(TEMPLATES)?;
-    let mut context = Context::from_serialize(&view::page(stability, options))?;
-    context.insert("style", STYLE);
-    context.insert("w", super::Language::English.words());
-    Ok(tera.render("stability.html", &context)?)
+    let language = options.language;
+    html::measured(language, &TEMPLATES, language.stability_words(), &view::page(stability, options))
 }
 
 /// Writes `stability.html` and `stability.json` into the directory `out`, which is created if need be.
@@ -103,26 +99,60 @@ pub fn write(stability: &Stability, out: &Path, options: Options) -> Result<Writ
 }
 
 /// The hard cases as a table in plain text, without times: one line for each.
-pub fn table(cases: &[Measured]) -> String {
-    let mut text = format!(
-        "{:<66} {:>9}  {:>13}  {:>13}  {:>13}  same\n",
-        "hard case", "condition", "at the state", "mean", "worst fault"
-    );
+pub fn table(cases: &[Measured], language: Language) -> String {
+    let t = language.stability_words();
+    let line = |[name, condition, at, mean, fault, same]: [&str; 6]| {
+        let columns = [(condition, 9), (at, 13), (mean, 13), (fault, 13)].map(|(text, n)| padded_left(text, n));
+        let [condition, at, mean, fault] = columns;
+        format!("{} {condition}  {at}  {mean}  {fault}  {same}\n", padded(name, 66))
+    };
     let pair = |before: f64, after: Option<f64>| match after {
         Some(after) => format!("{before:.1} -> {after:.1}"),
         None => format!("{before:.1}"),
     };
-    for case in cases {
+    let head = line([t.terminal_case, t.condition, t.at_state, t.mean, t.terminal_fault, t.terminal_same]);
+    let row = |case: &Measured| {
         let after = case.after.as_ref().map(|a| &a.form);
-        text += &format!(
-            "{:<66} {:>9.1}  {:>13}  {:>13}  {:>13}  {}\n",
-            format!("{} ({})", case.name, case.equation),
-            case.before.at.condition,
-            pair(case.before.at.lost, after.map(|f| f.at.lost)),
-            pair(case.before.found.mean, after.map(|f| f.found.mean)),
-            pair(case.before.found.fault.loss.fault(), after.map(|f| f.found.fault.loss.fault())),
-            case.after.as_ref().map_or("no stable form".to_owned(), |a| view::sameness(a.sameness)),
-        );
+        line([
+            &format!("{} ({})", case.name, case.equation),
+            &format!("{:.1}", case.before.at.condition),
+            &pair(case.before.at.lost, after.map(|f| f.at.lost)),
+            &pair(case.before.found.mean, after.map(|f| f.found.mean)),
+            &pair(case.before.found.fault.loss.fault(), after.map(|f| f.found.fault.loss.fault())),
+            &case.after.as_ref().map_or(t.terminal_no_form.to_owned(), |a| view::sameness(a.sameness, t)),
+        ])
+    };
+    head + &cases.iter().map(row).collect::<String>()
+}
+
+/// What was found, in plain text, with the time that it took.
+pub fn summary(stability: &Stability, options: Options) -> String {
+    let t = options.language.stability_words();
+    let mut text = table(&stability.cases, options.language);
+    for line in counted(&stability.counts(), t) {
+        text += &line;
+    }
+    if options.times {
+        text += &format!("{:.1} s\n", stability.micros as f64 / 1e6);
     }
     text
+}
+
+/// How many formulas lose digits, in three lines after an empty one.
+fn counted(counts: &Counts, t: &StabilityWords) -> [String; 3] {
+    let all: [(&str, &dyn Display); 8] = [
+        ("formulas", &counts.formulas),
+        ("equations", &counts.equations),
+        ("losing", &counts.losing),
+        ("random", &counts.at_random),
+        ("ill", &counts.ill_conditioned),
+        ("exact", &counts.exact_numbers),
+        ("unstable", &counts.unstable),
+        ("mended", &counts.mended),
+    ];
+    [
+        format!("\n{}\n", with(t.terminal_counts, &all)),
+        format!("  {}\n", with(t.terminal_ill, &all)),
+        format!("  {}\n", with(t.terminal_unstable, &all)),
+    ]
 }

@@ -12,6 +12,8 @@ use crate::report::charts::{Chart, LegendEntry, Table};
 use crate::report::dumbbells::{Row, draw};
 use crate::report::math::Renderer;
 use crate::report::text::{duration, number};
+use crate::report::words::stability::StabilityWords;
+use crate::report::words::with;
 use crate::report::{Options, view_charts};
 
 /// The most symbols of a state that are shown.
@@ -21,10 +23,9 @@ const LONGEST: usize = 700;
 
 #[derive(Serialize)]
 pub(super) struct Page {
-    version: &'static str,
     seed: u64,
-    exact_values: &'static str,
-    time: Option<String>,
+    exact_values: String,
+    lead_time: String,
     counts: Counts,
     documents: Vec<Document>,
     cases: Vec<Case>,
@@ -93,12 +94,12 @@ struct Column {
 }
 
 /// Whether two forms are the same, in words.
-pub(in crate::report) fn sameness(sameness: Sameness) -> String {
+pub(in crate::report) fn sameness(sameness: Sameness, t: &StabilityWords) -> String {
     match sameness {
-        Sameness::Exact { .. } => "exactly".into(),
-        Sameness::Numeric { bits, .. } => format!("to {bits} bits"),
-        Sameness::Different => "different".into(),
-        Sameness::Unknown => "not known".into(),
+        Sameness::Exact { .. } => t.same_exactly.into(),
+        Sameness::Numeric { bits, .. } => with(t.same_bits, &[("n", &bits)]),
+        Sameness::Different => t.same_not.into(),
+        Sameness::Unknown => t.same_unknown.into(),
     }
 }
 
@@ -106,102 +107,109 @@ fn bits(x: f64) -> String {
     format!("{x:.1}")
 }
 
+/// What formulas are shown with.
+struct Shown {
+    renderer: Renderer,
+    t: &'static StabilityWords,
+}
+
 /// The page of what was found.
 pub(super) fn page(stability: &Stability, options: Options) -> Page {
-    let renderer = Renderer::new();
-    let case = |(k, c): (usize, &Measured)| case(k + 1, c, &renderer);
-    let chart = chart(&stability.cases).map(|c| view_charts::view(&c, &renderer));
+    let shown = Shown { renderer: Renderer::new(), t: options.language.stability_words() };
+    let chart = chart(&stability.cases, shown.t).map(|c| view_charts::view(&c, &shown.renderer));
+    let time = options.times.then(|| with(shown.t.lead_time, &[("time", &duration(stability.micros))]));
     Page {
-        version: env!("CARGO_PKG_VERSION"),
         seed: stability.seed,
-        exact_values: stability.exact_values(),
-        time: options.times.then(|| duration(stability.micros)),
+        exact_values: options.language.say(stability.exact_values()).into_owned(),
+        lead_time: time.unwrap_or_default(),
         counts: stability.counts(),
-        documents: stability.documents.iter().map(|d| document(d, &renderer)).collect(),
-        cases: stability.cases.iter().enumerate().map(case).collect(),
+        documents: stability.documents.iter().map(|d| shown.document(d)).collect(),
+        cases: stability.cases.iter().enumerate().map(|(k, c)| shown.case(k + 1, c)).collect(),
         charts: chart.into_iter().collect(),
         times: stability.cases.iter().any(|c| c.before.nanoseconds.is_some()),
     }
 }
 
-fn document(survey: &Survey, renderer: &Renderer) -> Document {
-    let mut unstable: Vec<&Item> = survey.items.iter().filter(|i| i.is_at_fault()).collect();
-    unstable.sort_by(|a, b| b.found.fault.loss.fault().total_cmp(&a.found.fault.loss.fault()));
-    let ill = survey.items.iter().filter(|i| i.loses() && !i.is_at_fault());
-    Document {
-        name: survey.name.clone(),
-        counts: survey.counts(),
-        unstable: unstable.into_iter().map(|i| formula(i, &i.found.fault, renderer)).collect(),
-        ill_conditioned: ill.map(|i| formula(i, &i.found.worst, renderer)).collect(),
+impl Shown {
+    fn document(&self, survey: &Survey) -> Document {
+        let mut unstable: Vec<&Item> = survey.items.iter().filter(|i| i.is_at_fault()).collect();
+        unstable.sort_by(|a, b| b.found.fault.loss.fault().total_cmp(&a.found.fault.loss.fault()));
+        let ill = survey.items.iter().filter(|i| i.loses() && !i.is_at_fault());
+        Document {
+            name: survey.name.clone(),
+            counts: survey.counts(),
+            unstable: unstable.into_iter().map(|i| self.formula(i, &i.found.fault)).collect(),
+            ill_conditioned: ill.map(|i| self.formula(i, &i.found.worst)).collect(),
+        }
     }
-}
 
-fn formula(item: &Item, hard: &Hard, renderer: &Renderer) -> Formula {
-    let shown = |latex: &str| {
-        if latex.len() <= LONGEST { renderer.inline(latex) } else { "a long formula".to_owned() }
-    };
-    let proposal = item.proposal.as_ref();
-    Formula {
-        label: item.label.clone(),
-        line: item.line,
-        math_html: shown(&item.latex),
-        mean: bits(item.found.mean),
-        hard: state(&item.symbols, hard, renderer),
-        proposal_html: proposal.and_then(|p| p.latex.as_deref()).map(shown),
-        proposal: proposal.map(|p| {
-            let found = &p.found;
-            let (mean, worst) = (bits(found.mean), bits(found.worst.loss.lost));
-            let fault = bits(found.fault.loss.fault());
-            format!("mean {mean}, worst {worst}, beyond the condition {fault}; the same {}", sameness(p.sameness))
-        }),
+    fn formula(&self, item: &Item, hard: &Hard) -> Formula {
+        let shown = |latex: &str| {
+            if latex.len() <= LONGEST { self.renderer.inline(latex) } else { self.t.long_formula.to_owned() }
+        };
+        let proposal = item.proposal.as_ref();
+        Formula {
+            label: item.label.clone(),
+            line: item.line,
+            math_html: shown(&item.latex),
+            mean: bits(item.found.mean),
+            hard: self.state(&item.symbols, hard),
+            proposal_html: proposal.and_then(|p| p.latex.as_deref()).map(shown),
+            proposal: proposal.map(|p| {
+                let (mean, worst) = (bits(p.found.mean), bits(p.found.worst.loss.lost));
+                let beyond = bits(p.found.fault.loss.fault());
+                let same = sameness(p.sameness, self.t);
+                with(self.t.proposal, &[("mean", &mean), ("worst", &worst), ("beyond", &beyond), ("same", &same)])
+            }),
+        }
     }
-}
 
-fn state(symbols: &[String], hard: &Hard, renderer: &Renderer) -> State {
-    let Loss { lost, condition } = hard.loss;
-    let assignments = symbols.iter().zip(&hard.state).take(MOST_SYMBOLS);
-    State {
-        lost: bits(lost),
-        condition: bits(condition),
-        fault: bits(hard.loss.fault()),
-        symbols: assignments.map(|(s, x)| (renderer.inline(s), x.to_string())).collect(),
-        more: symbols.len().saturating_sub(MOST_SYMBOLS),
+    fn state(&self, symbols: &[String], hard: &Hard) -> State {
+        let Loss { lost, condition } = hard.loss;
+        let assignments = symbols.iter().zip(&hard.state).take(MOST_SYMBOLS);
+        State {
+            lost: bits(lost),
+            condition: bits(condition),
+            fault: bits(hard.loss.fault()),
+            symbols: assignments.map(|(s, x)| (self.renderer.inline(s), x.to_string())).collect(),
+            more: symbols.len().saturating_sub(MOST_SYMBOLS),
+        }
     }
-}
 
-fn case(number: usize, case: &Measured, renderer: &Renderer) -> Case {
-    let other = |o: &Other| column(&o.form, Some(sameness(o.sameness)), renderer);
-    Case {
-        number,
-        name: case.name.clone(),
-        notes: case.notes.clone(),
-        equation: case.equation.clone(),
-        printed: case.printed,
-        why_html: renderer.prose(&case.why),
-        source: case.source.clone(),
-        state: case.state.iter().map(|(s, x)| (renderer.inline(s), x.to_string())).collect(),
-        condition: bits(case.before.at.condition),
-        before: column(&case.before, None, renderer),
-        after: case.after.as_ref().map(other),
-        rewritten: case.rewritten.as_ref().map(other),
-        inherent: case.before.found.fault.loss.fault() <= crate::diagnose::stability::survey::MANY,
+    fn case(&self, number: usize, case: &Measured) -> Case {
+        let other = |o: &Other| self.column(&o.form, Some(sameness(o.sameness, self.t)));
+        Case {
+            number,
+            name: case.name.clone(),
+            notes: case.notes.clone(),
+            equation: case.equation.clone(),
+            printed: case.printed,
+            why_html: self.renderer.prose(&case.why),
+            source: case.source.clone(),
+            state: case.state.iter().map(|(s, x)| (self.renderer.inline(s), x.to_string())).collect(),
+            condition: bits(case.before.at.condition),
+            before: self.column(&case.before, None),
+            after: case.after.as_ref().map(other),
+            rewritten: case.rewritten.as_ref().map(other),
+            inherent: case.before.found.fault.loss.fault() <= crate::diagnose::stability::survey::MANY,
+        }
     }
-}
 
-fn column(form: &Form, sameness: Option<String>, renderer: &Renderer) -> Column {
-    Column {
-        math_html: renderer.display(&form.latex),
-        at: bits(form.at.lost),
-        mean: bits(form.found.mean),
-        worst: bits(form.found.worst.loss.lost),
-        fault: bits(form.found.fault.loss.fault()),
-        nanoseconds: form.nanoseconds.map(|n| number(n, 2)),
-        sameness,
+    fn column(&self, form: &Form, sameness: Option<String>) -> Column {
+        Column {
+            math_html: self.renderer.display(&form.latex),
+            at: bits(form.at.lost),
+            mean: bits(form.found.mean),
+            worst: bits(form.found.worst.loss.lost),
+            fault: bits(form.found.fault.loss.fault()),
+            nanoseconds: form.nanoseconds.map(|n| number(n, 2)),
+            sameness,
+        }
     }
 }
 
 /// The chart of all cases at their hard states.
-fn chart(cases: &[Measured]) -> Option<Chart> {
+fn chart(cases: &[Measured], t: &StabilityWords) -> Option<Chart> {
     let row = |(k, case): (usize, &Measured)| {
         let after = case.after.as_ref().map(|o| &o.form);
         Row {
@@ -212,8 +220,8 @@ fn chart(cases: &[Measured]) -> Option<Chart> {
         }
     };
     let rows: Vec<Row> = cases.iter().enumerate().map(row).collect();
-    let title = "Bits lost and time, before and after";
-    let svg = draw(title, &rows).ok().filter(|_| !rows.is_empty())?;
+    let title = t.chart_title;
+    let svg = draw(title, [t.chart_bits, t.chart_time], &rows).ok().filter(|_| !rows.is_empty())?;
     let entry = |class: &str, marker: Option<&str>, label: &str| LegendEntry {
         class: class.to_owned(),
         marker: marker.map(str::to_owned),
@@ -228,22 +236,19 @@ fn chart(cases: &[Measured]) -> Option<Chart> {
         }
         cells
     };
-    let mut head = vec!["case", "bits before", "after", "condition"];
+    let mut head = vec![t.chart_case, t.chart_before, t.chart_after, t.chart_condition_head];
     if rows.iter().any(|r| r.nanoseconds.is_some()) {
-        head.extend(["ns before", "after"]);
+        head.extend([t.chart_time_before, t.chart_after]);
     }
     Some(Chart {
         id: "chart-stability".into(),
         title: title.into(),
-        caption: "At the hard state of each case. Left of the stroke the problem itself loses as many bits when its numbers are \
-                  known to 53 bits; what lies right of it is the formula's fault. A stable form may stay left of it \
-                  where the numbers are taken as exact."
-            .into(),
+        caption: t.chart_caption.into(),
         svg,
         legend: vec![
-            entry("line-1", Some("fill-2"), "the formula of the notes"),
-            entry("line-1", Some("ring-1"), "the stable form"),
-            entry("ink", None, "the condition number"),
+            entry("line-1", Some("fill-2"), t.chart_formula),
+            entry("line-1", Some("ring-1"), t.chart_stable),
+            entry("ink", None, t.chart_condition),
         ],
         table: Table { head: head.into_iter().map(str::to_owned).collect(), rows: rows.iter().map(numbers).collect() },
     })

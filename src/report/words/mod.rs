@@ -1,13 +1,17 @@
 //! The words of reports: a typed table for each language, so that none can lack one.
 //!
 //! A text may have places, `{n}`, and where the language tells one from many two forms with `|` between them. What notes
-//! say, and the reasons that the checker composes, stay in their language.
+//! say stays in its language; sentences that other floors compose are translated as far as they are known, by `reasons`.
 
+pub(super) mod charts;
 mod en;
 mod ja;
 mod reasons;
+pub(super) mod speed;
+pub(super) mod stability;
 
 use crate::check::verdict::{Strength, Verdict};
+use crate::document::Problem;
 use serde::Serialize;
 use std::borrow::Cow;
 
@@ -46,11 +50,31 @@ impl Language {
         }
     }
 
-    /// A sentence that the checker composed, in this language where it is one of the frequent ones.
+    /// A sentence that another floor composed in English, in this language as far as it is known.
     pub(super) fn say(self, english: &str) -> Cow<'_, str> {
         match self {
             Language::English => english.into(),
             Language::Japanese => reasons::japanese(english),
+        }
+    }
+
+    /// A document's problem with its place in plain text, in this language.
+    pub(super) fn say_problem(self, english: &str) -> Cow<'_, str> {
+        match self {
+            Language::English => english.into(),
+            Language::Japanese => reasons::problem(english),
+        }
+    }
+
+    /// A problem in this language.
+    pub fn problem(self, problem: &Problem) -> Problem {
+        let say = |text: &String| self.say(text).into_owned();
+        Problem {
+            message: say(&problem.message),
+            label: problem.label.as_ref().map(say),
+            other: problem.other.as_ref().map(|(span, label)| (span.clone(), say(label))),
+            help: problem.help.as_ref().map(say),
+            ..problem.clone()
         }
     }
 
@@ -65,6 +89,11 @@ impl Language {
 /// The last line of the terminal's summary: where the report begins.
 pub fn where_to_begin(language: Language, path: &std::path::Path) -> String {
     with(language.words().terminal_report, &[("path", &path.display())])
+}
+
+/// That there are more problems than are shown in the source.
+pub fn more_problems(language: Language, n: usize) -> String {
+    count(language.words().terminal_more, n)
 }
 
 /// The form of a text for a number, with the number in its place `{n}`.
@@ -201,6 +230,7 @@ pub(super) struct Words {
     pub from: &'static str,
     pub with: &'static str,
     pub list_comma: &'static str,
+    pub full_stop: &'static str,
     pub should_read: &'static str,
     pub printed: &'static str,
     pub printed_as_read: &'static str,
@@ -294,6 +324,14 @@ pub(super) struct Words {
     pub map_title: &'static str,
     pub map_note: &'static str,
     pub map_summary: &'static str,
+    pub map_whole: &'static str,
+    pub map_whole_note: &'static str,
+    pub map_whole_drawing: &'static str,
+    pub map_spoken_section: &'static str,
+    pub map_section: &'static str,
+    pub map_equations: &'static str,
+    pub map_failing: &'static str,
+    pub map_danger_count: &'static str,
     pub map_part: &'static str,
     pub map_drawing: &'static str,
     pub map_spoken_rests: &'static str,
@@ -333,6 +371,7 @@ pub(super) struct Words {
     pub terminal_mutants: &'static str,
     pub terminal_passes: &'static str,
     pub terminal_report: &'static str,
+    pub terminal_more: &'static str,
     pub phrase_holds: &'static str,
     pub phrase_asymptotic: &'static str,
     pub phrase_definition: &'static str,

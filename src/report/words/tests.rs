@@ -2,8 +2,23 @@ use super::*;
 use serde_json::Value;
 use std::collections::{BTreeSet, HashSet};
 
-fn table(language: Language) -> serde_json::Map<String, Value> {
-    serde_json::to_value(language.words()).unwrap().as_object().unwrap().clone()
+type Table = serde_json::Map<String, Value>;
+
+fn table(language: Language) -> Table {
+    as_table(language.words())
+}
+
+fn as_table(words: &impl serde::Serialize) -> Table {
+    serde_json::to_value(words).unwrap().as_object().unwrap().clone()
+}
+
+/// The tables of single pages, with the templates that have them as `t`.
+fn tables_of_pages(language: Language) -> [(&'static str, Table, &'static [&'static str]); 3] {
+    [
+        ("charts", as_table(language.chart_words()), &[]),
+        ("speed", as_table(language.speed_words()), &["speed.html"]),
+        ("stability", as_table(language.stability_words()), &["stability.html", "form.html"]),
+    ]
 }
 
 fn places(text: &str) -> BTreeSet<&str> {
@@ -15,7 +30,14 @@ fn places(text: &str) -> BTreeSet<&str> {
 fn the_languages_fill_the_same_places() {
     let (english, japanese) = (table(Language::English), table(Language::Japanese));
     assert!(english.len() > 100);
-    for (key, text) in &english {
+    compare(&english, &japanese);
+    for (english, japanese) in tables_of_pages(Language::English).iter().zip(&tables_of_pages(Language::Japanese)) {
+        compare(&english.1, &japanese.1);
+    }
+}
+
+fn compare(english: &Table, japanese: &Table) {
+    for (key, text) in english {
         let (text, other) = (text.as_str().unwrap(), japanese[key].as_str().unwrap());
         for form in text.split('|').chain(other.split('|')) {
             assert_eq!(places(form), places(text), "{key}: {form}");
@@ -31,26 +53,56 @@ fn the_languages_fill_the_same_places() {
 /// A template that asks for a word gets it, and no word is left that nobody asks for.
 #[test]
 fn templates_and_words_agree() {
-    let folder = std::path::Path::new(env!("CARGO_MANIFEST_DIR"));
+    let code = sources(&folder().join("src/report"));
+    agree(&table(Language::English), &asked("w.", |_| true), &code);
+    for (name, table, templates) in tables_of_pages(Language::English) {
+        let asked = asked("t.", |file| templates.contains(&file));
+        assert!(templates.is_empty() || !asked.is_empty(), "{name}");
+        agree(&table, &asked, &code);
+    }
+}
+
+fn folder() -> &'static std::path::Path {
+    std::path::Path::new(env!("CARGO_MANIFEST_DIR"))
+}
+
+/// The words that templates ask for under a name.
+fn asked(prefix: &str, wanted: impl Fn(&str) -> bool) -> HashSet<String> {
     let mut asked = HashSet::new();
-    for file in std::fs::read_dir(folder.join("templates")).unwrap() {
-        let text = std::fs::read_to_string(file.unwrap().path()).unwrap();
+    for file in std::fs::read_dir(folder().join("templates")).unwrap() {
+        let path = file.unwrap().path();
+        if !wanted(path.file_name().unwrap().to_str().unwrap()) {
+            continue;
+        }
+        let text = std::fs::read_to_string(&path).unwrap();
         let word = |rest: &str| rest.split(|c: char| !c.is_alphanumeric() && c != '_').next().map(str::to_owned);
         let begins = |before: &str| before.chars().next_back().is_none_or(|c| !c.is_alphanumeric() && c != '_');
-        asked.extend(
-            text.match_indices("w.").filter(|(k, _)| begins(&text[..*k])).filter_map(|(k, _)| word(&text[k + 2..])),
-        );
+        let found = text.match_indices(prefix).filter(|(k, _)| begins(&text[..*k]));
+        asked.extend(found.filter_map(|(k, _)| word(&text[k + prefix.len()..])));
     }
-    let table = table(Language::English);
-    for key in &asked {
-        assert!(table.contains_key(key), "no word `{key}`");
-    }
-    let mut code = std::fs::read_to_string(folder.join("src/report/words/mod.rs")).unwrap();
-    for file in std::fs::read_dir(folder.join("src/report")).unwrap() {
+    asked
+}
+
+/// All Rust of a folder, the tables of words themselves aside.
+fn sources(folder: &std::path::Path) -> String {
+    let mut code = String::new();
+    for file in std::fs::read_dir(folder).unwrap() {
         let path = file.unwrap().path();
-        if path.is_file() {
-            code.push_str(&std::fs::read_to_string(path).unwrap());
+        match path.is_dir() {
+            true if path.ends_with("words") => code.push_str(&std::fs::read_to_string(path.join("mod.rs")).unwrap()),
+            true => code.push_str(&sources(&path)),
+            false if path.extension().is_some_and(|e| e == "rs") => {
+                code.push_str(&std::fs::read_to_string(path).unwrap());
+            }
+            false => {}
         }
+    }
+    code
+}
+
+fn agree(table: &Table, asked: &HashSet<String>, code: &str) {
+    for key in asked {
+        assert!(table.contains_key(key), "no word `{key}`");
     }
     for key in table.keys() {
         assert!(asked.contains(key) || code.contains(&format!(".{key}")), "nobody asks for `{key}`");
