@@ -11,7 +11,7 @@ use crate::infer::{self, Ground, roles};
 /// Explains the equation of a label or a number: how it was read, what it rests on, its sides at three states, the verdict. `None`
 /// where there is no such label.
 pub fn explain(document: &Document, label: &str, options: &Options) -> Option<String> {
-    let guesses = if roles::declares_symbols(document) { Vec::new() } else { roles::guess(document) };
+    let guesses = roles::guess(document);
     let declared = roles::declare(document, &guesses);
     let mut book = Book::new(&declared);
     let (index, _) = book.find(label).filter(|(index, _)| book.entries[*index].equation.is_called(label))?;

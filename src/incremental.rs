@@ -40,7 +40,7 @@ pub struct Judged {
 impl Memory {
     /// A document ready to be judged.
     pub fn book(&mut self, document: &Document) -> Book {
-        Book::with(document, &mut self.formulas)
+        Book::with(document, &self.formulas)
     }
 
     /// The judgements on the equations `wanted`: remembered, or else by `judge`.

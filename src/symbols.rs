@@ -24,7 +24,7 @@ pub struct Listed {
 
 /// The symbols of a document, in the order in which they are declared or first occur.
 pub fn symbols(document: &Document) -> Vec<Listed> {
-    let guesses = guesses(document);
+    let guesses = roles::guess(document);
     let book = Book::new(&roles::declare(document, &guesses));
     if !guesses.is_empty() {
         return guesses.iter().map(|guess| guessed(guess, &book, document)).collect();
@@ -41,10 +41,6 @@ pub fn symbols(document: &Document) -> Vec<Listed> {
         });
     }
     listed
-}
-
-fn guesses(document: &Document) -> Vec<Guess> {
-    if roles::declares_symbols(document) { Vec::new() } else { roles::guess(document) }
 }
 
 fn guessed(guess: &Guess, book: &Book, document: &Document) -> Listed {

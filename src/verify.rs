@@ -8,7 +8,7 @@ use rayon::prelude::*;
 use crate::breakdown::caught;
 use crate::check::dimension::Survey;
 use crate::check::verdict::{Assumed, DocumentReport, Judgement, Verdict};
-use crate::check::{self, Book, Fingerprints, Options};
+use crate::check::{self, Book, Finding, Fingerprints, Options};
 use crate::diagnose::{correct, sensitivity};
 use crate::document::{self, Document, ReadError};
 use crate::expr::Deadline;
@@ -82,7 +82,7 @@ pub fn verify_again(
     memory: &mut Memory,
     judged: &(dyn Fn() + Sync),
 ) -> (Verified, Vec<usize>) {
-    let guesses = if roles::declares_symbols(&document) { Vec::new() } else { roles::guess(&document) };
+    let guesses = roles::guess(&document);
     let assumed = guesses.iter().map(|g| assumed(g, &document)).collect();
     let document = if guesses.is_empty() { document } else { roles::declare(&document, &guesses) };
     let mut book = memory.book(&document);
@@ -118,7 +118,7 @@ pub fn verify_again(
         name: document.name.clone(),
         path: document.path.display().to_string(),
         title: document.title.clone(),
-        problems: problems.iter().map(|p| p.to_text(&document)).collect(),
+        problems: problems.iter().map(|p| Finding::of(p, &document)).collect(),
         inferred: survey.map(|s| s.inferred()).unwrap_or_default(),
         assumed,
         equations,

@@ -31,11 +31,16 @@ impl Drop for Watch {
 
 impl Watch {
     fn start(name: &str) -> Watch {
+        Watch::begin(name, &["notes.md"])
+    }
+
+    fn begin(name: &str, watched: &[&str]) -> Watch {
         let folder = std::env::temp_dir().join(format!("kenzan-watch-{}-{name}", std::process::id()));
         std::fs::create_dir_all(folder.join(".git")).unwrap();
         std::fs::write(folder.join("notes.md"), NOTES).unwrap();
         let mut process = Command::new(env!("CARGO_BIN_EXE_kenzan"))
-            .args(["watch", "notes.md", "--lang", "en"])
+            .args(["watch", "--lang", "en"])
+            .args(watched)
             .current_dir(&folder)
             .stdout(Stdio::piped())
             .spawn()
@@ -45,7 +50,7 @@ impl Watch {
         std::thread::spawn(move || output.lines().map_while(Result::ok).try_for_each(|line| send.send(line)));
         let mut watch = Watch { process, lines, port: 0, notes: folder.join("notes.md") };
         let first = watch.line();
-        assert!(first.starts_with("notes.md: 2 hold, all as expected; 2 judged in "), "{first}");
+        assert!(first.trim_start_matches("./").starts_with("notes.md: 2 hold, all as expected; 2 judged in "), "{first}");
         let address = watch.line();
         let port = address.strip_prefix("report: http://127.0.0.1:").unwrap().split('/').next().unwrap();
         watch.port = port.parse().unwrap();
@@ -142,4 +147,42 @@ fn the_page_is_told_when_there_is_news() {
         assert_eq!(number(&body), 2);
         assert!(body.contains("(1) holds → fails"), "{body}");
     });
+}
+
+#[test]
+fn notes_that_were_missed_are_told_to_be_back_though_nothing_changed() {
+    let watch = Watch::start("missed");
+    std::fs::remove_file(&watch.notes).unwrap();
+    let line = watch.line();
+    assert!(line.starts_with("there is no file `notes.md`; the report shows what was there before"), "{line}");
+    watch.save(NOTES);
+    let mut line = watch.line();
+    while line.starts_with("there is no file") {
+        line = watch.line();
+    }
+    assert!(line.starts_with("notes.md: 2 hold, all as expected; 0 judged in "), "{line}");
+}
+
+#[test]
+fn notes_that_leave_a_folder_leave_the_report() {
+    let watch = Watch::begin("folder", &["."]);
+    std::fs::write(watch.notes.with_file_name("more.md"), NOTES).unwrap();
+    let mut line = watch.line();
+    while !line.contains("more.md: 2 hold") {
+        line = watch.line();
+    }
+    std::fs::remove_file(watch.notes.with_file_name("more.md")).unwrap();
+    while !line.contains("more.md is gone") {
+        line = watch.line();
+    }
+    let report: serde_json::Value = serde_json::from_str(&watch.page("/report.json").2).unwrap();
+    assert_eq!(report["documents"].as_array().unwrap().len(), 1);
+}
+
+#[test]
+fn what_never_was_is_not_watched() {
+    let output = Command::new(env!("CARGO_BIN_EXE_kenzan")).args(["watch", "no-such-notes.md"]).output().unwrap();
+    assert_eq!(output.status.code(), Some(2));
+    let said = String::from_utf8_lossy(&output.stderr);
+    assert!(said.contains("there is no file `no-such-notes.md`"), "{said}");
 }

@@ -3,6 +3,8 @@
 use std::collections::{HashMap, HashSet};
 use std::sync::Arc;
 
+use rayon::prelude::*;
+
 use crate::document::{Declarations, Document, Equation, EquationAnnotation, Item, LinkPremises, Problem, Spanned};
 use crate::latex::expand::{Expanded, Macros};
 use crate::latex::{self, ParseError, ast::Node};
@@ -134,6 +136,34 @@ impl Entry {
     }
 }
 
+/// An equation where it stands, its formulas not yet read.
+struct Place<'d> {
+    equation: &'d Equation,
+    scope: Arc<Scope>,
+    section: String,
+    previous: Option<usize>,
+}
+
+impl Place<'_> {
+    fn read(self, formulas: &Formulas) -> Entry {
+        let Place { equation, scope, section, previous } = self;
+        let annotation = equation.annotation.as_ref();
+        let printed = formulas.read_with(&format!("{}{}", equation.prefix, equation.masked), &equation.macros);
+        let formula = |text: &Option<Spanned<String>>| text.as_ref().map(|t| formulas.read(&t.value));
+        let reading = annotation.and_then(|a| formula(&a.reading));
+        let correction = annotation.and_then(|a| formula(&a.correction));
+        let mut mentions = HashSet::new();
+        for f in [Some(&printed), reading.as_ref(), correction.as_ref()].into_iter().flatten() {
+            if let Ok(tree) = &f.tree {
+                semantics::mentions(&scope, tree, &mut mentions);
+            }
+        }
+        let mentions: HashMap<String, usize> =
+            mentions.into_iter().filter_map(|m| scope.get(&m).map(|e| e.declared).map(|d| (m, d))).collect();
+        Entry { equation: equation.clone(), scope, section, printed, reading, correction, previous, mentions }
+    }
+}
+
 /// A document ready to be judged.
 #[derive(Clone, Debug, Default)]
 pub struct Book {
@@ -152,13 +182,14 @@ pub struct Book {
 impl Book {
     /// Parses every formula of a document and works out the scope of every equation.
     pub fn new(document: &Document) -> Self {
-        Book::with(document, &mut Formulas::default())
+        Book::with(document, &Formulas::default())
     }
 
     /// As [`Book::new`], without parsing again what has been parsed before.
-    pub fn with(document: &Document, formulas: &mut Formulas) -> Self {
+    pub fn with(document: &Document, formulas: &Formulas) -> Self {
         formulas.turn();
         let mut book = Book::default();
+        let mut places = Vec::new();
         let mut scopes = Scopes::default();
         let mut section = String::new();
         let mut previous = None;
@@ -173,60 +204,36 @@ impl Book {
                     book.problems.extend(problems);
                 }
                 Item::Equation(equation) => {
-                    let index = book.entries.len();
-                    book.add(equation, &scopes.current(), &section, previous, formulas);
-                    if !equation.inline {
-                        previous = Some(index);
-                    }
+                    let scope = book.scope(equation, &scopes.current());
+                    let after = if equation.inline { previous } else { previous.replace(places.len()) };
+                    places.push(Place { equation, scope, section: section.clone(), previous: after });
                 }
             }
         }
+        let entries: Vec<Entry> = places.into_par_iter().map(|place| place.read(formulas)).collect();
+        entries.into_iter().for_each(|entry| book.add(entry));
         book.check_references();
         book
     }
 
-    fn add(
-        &mut self,
-        equation: &Equation,
-        scope: &Arc<Scope>,
-        section: &str,
-        previous: Option<usize>,
-        formulas: &mut Formulas,
-    ) {
-        let annotation = equation.annotation.as_ref();
-        let scope = match annotation {
+    /// The scope of an equation: that of its section, with what it declares for itself.
+    fn scope(&mut self, equation: &Equation, scope: &Arc<Scope>) -> Arc<Scope> {
+        match &equation.annotation {
             Some(a) if !a.symbols.is_empty() => Arc::new(scope.with_local(&a.symbols, &mut self.problems)),
             _ => Arc::clone(scope),
-        };
-        let printed = formulas.read_with(&format!("{}{}", equation.prefix, equation.masked), &equation.macros);
-        let mut formula = |text: &Option<Spanned<String>>| text.as_ref().map(|t| formulas.read(&t.value));
-        let reading = annotation.and_then(|a| formula(&a.reading));
-        let correction = annotation.and_then(|a| formula(&a.correction));
-        let mut mentions = HashSet::new();
-        for f in [Some(&printed), reading.as_ref(), correction.as_ref()].into_iter().flatten() {
-            if let Ok(tree) = &f.tree {
-                semantics::mentions(&scope, tree, &mut mentions);
-            }
         }
-        let mentions: HashMap<String, usize> =
-            mentions.into_iter().filter_map(|m| scope.get(&m).map(|e| e.declared).map(|d| (m, d))).collect();
-        self.labels.entry(equation.label.clone()).or_insert(self.entries.len());
+    }
+
+    fn add(&mut self, entry: Entry) {
+        let (equation, index) = (&entry.equation, self.entries.len());
+        self.labels.entry(equation.label.clone()).or_insert(index);
         for number in &equation.numbers {
-            self.numbers.entry(number.clone()).or_insert(self.entries.len());
+            self.numbers.entry(number.clone()).or_insert(index);
         }
-        for pattern in mentions.keys() {
-            self.mentioned.entry(pattern.clone()).or_default().push(self.entries.len());
+        for pattern in entry.mentions.keys() {
+            self.mentioned.entry(pattern.clone()).or_default().push(index);
         }
-        self.entries.push(Entry {
-            equation: equation.clone(),
-            scope,
-            section: section.to_owned(),
-            printed,
-            reading,
-            correction,
-            previous,
-            mentions,
-        });
+        self.entries.push(entry);
     }
 
     /// The equation that a reference means, with the statement of it, counted from 1, where one is named: `75.2`.

@@ -93,10 +93,9 @@ impl<'b> Fingerprints<'b> {
             scopes: HashMap::new(),
             symbols: HashMap::new(),
         };
-        for entry in book.entries.iter() {
-            prints.contents.push(content(&entry.equation, &entry.printed.latex));
-            prints.enter(&entry.scope);
-        }
+        book.entries.iter().for_each(|entry| prints.enter(&entry.scope));
+        let entries = (0..book.entries.len()).into_par_iter().map(|k| book.entries.quietly(k));
+        prints.contents = entries.map(|entry| content(&entry.equation, &entry.printed.latex)).collect();
         prints
     }
 

@@ -12,6 +12,7 @@ pub mod dimension;
 mod elimination;
 mod entries;
 pub mod exact;
+mod finding;
 mod fingerprint;
 mod formulas;
 pub mod found;
@@ -43,6 +44,7 @@ pub mod verdict;
 
 pub use book::{Book, Entry, Formula, Unclear, Version};
 pub use entries::Entries;
+pub use finding::Finding;
 pub use fingerprint::{Fingerprints, Footing};
 pub use formulas::Formulas;
 pub use judge::{blank, judge, judge_one, judge_tree};

@@ -6,6 +6,7 @@ use schemars::JsonSchema;
 use serde::Serialize;
 
 use super::exact::Exact;
+use super::finding::Finding;
 pub use super::found::{Assumed, Difference, Inferred, InferredLink, Suspect};
 use crate::document::Problem;
 
@@ -466,7 +467,8 @@ pub struct DocumentReport {
     /// The document's title.
     pub title: String,
     /// Problems of the document that belong to no equation (an unclosed display, a directive that does not parse).
-    pub problems: Vec<String>,
+    #[schemars(with = "Vec<String>")]
+    pub problems: Vec<Finding>,
     /// The dimensions that were inferred.
     pub inferred: Vec<InferredDimension>,
     /// The symbols that the document does not declare, with the roles they were guessed to have.

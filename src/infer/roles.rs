@@ -139,8 +139,12 @@ pub fn declares_symbols(document: &Document) -> bool {
     document.items.iter().any(|item| matches!(item, Item::Declarations(d) if !d.symbols.is_empty()))
 }
 
-/// The roles of the symbols of a document, in the order in which they first occur.
+/// The roles of the symbols of a document, in the order in which they first occur. A document that
+/// [declares its symbols](declares_symbols) is left alone: none.
 pub fn guess(document: &Document) -> Vec<Guess> {
+    if declares_symbols(document) {
+        return Vec::new();
+    }
     let book = Book::new(document);
     let mut evidence = Evidence::default();
     let inline: Vec<Node> = inline(document).filter_map(|(_, formula)| formula.tree.ok()).collect();

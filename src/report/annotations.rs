@@ -1,11 +1,12 @@
 //! The report for other people's continuous integration: JUnit, SARIF, and GitHub's annotations.
 //!
 //! In each of them an equation that is not as expected is an error, and one that fails as expected a note: known misprints keep a
-//! build green. Problems of a document are errors.
+//! build green. Problems of a document are errors or warnings; warnings change nothing.
 
 use super::terminal::of_one;
 use super::text::word;
 use super::{ReportError, Run};
+use crate::check::Finding;
 use crate::check::verdict::{DocumentReport, Judgement, Verdict};
 use quick_junit::{NonSuccessKind, Report, TestCase, TestCaseStatus, TestSuite};
 use serde_json::{Value, json};
@@ -28,13 +29,25 @@ pub fn junit(run: &Run, times: bool) -> Result<String, ReportError> {
             suite.add_test_case(case);
         }
         for problem in &document.problems {
-            let mut failed = TestCaseStatus::non_success(NonSuccessKind::Error);
-            failed.set_message(problem);
-            suite.add_test_case(TestCase::new("document", failed));
+            suite.add_test_case(case_of(problem));
         }
         report.add_test_suite(suite);
     }
-    Ok(report.to_string()?)
+    // The schema by which Jenkins judges such files allows this count for suites alone, and a file with it is refused.
+    Ok(report.to_string()?.replacen(&format!(" skipped=\"{}\"", report.skipped), "", 1))
+}
+
+/// A problem of a document as a test: one that passes, and says so, where it is a warning.
+fn case_of(problem: &Finding) -> TestCase {
+    let name = format!("{}:{}:{}", problem.file, problem.line, problem.column);
+    if problem.is_error {
+        let mut failed = TestCaseStatus::non_success(NonSuccessKind::Error);
+        failed.set_message(problem.message());
+        return TestCase::new(name, failed);
+    }
+    let mut case = TestCase::new(name, TestCaseStatus::success());
+    case.set_system_out(problem.message());
+    case
 }
 
 fn status(document: &DocumentReport, judgement: &Judgement) -> TestCaseStatus {
@@ -60,7 +73,6 @@ fn told(document: &DocumentReport) -> impl Iterator<Item = (&Judgement, bool)> {
 pub fn github(run: &Run) -> String {
     let mut text = String::new();
     for document in &run.documents {
-        let file = property(&document.path);
         for (judgement, is_error) in told(document) {
             let level = if is_error { "error" } else { "notice" };
             let title = property(&format!("({}) {}", judgement.label, word(judgement.verdict)));
@@ -69,7 +81,10 @@ pub fn github(run: &Run) -> String {
             text += &format!("::{level} file={file},line={},title={title}::{message}\n", judgement.line);
         }
         for problem in &document.problems {
-            text += &format!("::error file={file}::{}\n", data(problem));
+            let level = if problem.is_error { "error" } else { "warning" };
+            let file = property(&problem.file);
+            let (line, column) = (problem.line, problem.column);
+            text += &format!("::{level} file={file},line={line},col={column}::{}\n", data(problem.message()));
         }
     }
     text
@@ -98,6 +113,7 @@ pub fn sarif(run: &Run) -> Result<String, ReportError> {
         "version": "2.1.0",
         "runs": [{
             "tool": { "driver": { "name": "kenzan", "version": env!("CARGO_PKG_VERSION"), "rules": rules } },
+            "columnKind": "unicodeCodePoints",
             "results": results,
         }],
     });
@@ -112,16 +128,19 @@ fn rule(id: &str) -> Value {
         "document" => "Something is wrong with the document",
         _ => "The equation is not as its annotation expects",
     };
-    json!({ "id": id, "shortDescription": { "text": text } })
+    let name: String = text.split(' ').map(capitalized).collect();
+    json!({ "id": id, "name": name, "shortDescription": { "text": text } })
+}
+
+/// A word as it stands in the middle of a name.
+fn capitalized(word: &str) -> String {
+    let mut letters = word.chars();
+    letters.next().map(|first| first.to_uppercase().chain(letters).collect()).unwrap_or_default()
 }
 
 fn results(document: &DocumentReport) -> Vec<Value> {
-    let place = |path: &str, line: Option<usize>| {
-        let mut physical = json!({ "artifactLocation": { "uri": uri(path) } });
-        if let Some(line) = line {
-            physical["region"] = json!({ "startLine": line });
-        }
-        json!([{ "physicalLocation": physical }])
+    let place = |path: &str, region: Value| {
+        json!([{ "physicalLocation": { "artifactLocation": { "uri": uri(path) }, "region": region } }])
     };
     let equations = told(document).map(|(j, is_error)| {
         let rule = match j.verdict {
@@ -132,11 +151,18 @@ fn results(document: &DocumentReport) -> Vec<Value> {
             "ruleId": rule,
             "level": if is_error { "error" } else { "note" },
             "message": { "text": of_one(document, j) },
-            "locations": place(document.path_of(j), Some(j.line)),
+            "locations": place(document.path_of(j), json!({ "startLine": j.line })),
         })
     });
     let problems = document.problems.iter().map(|problem| {
-        json!({ "ruleId": "document", "level": "error", "message": { "text": problem }, "locations": place(&document.path, None) })
+        let level = if problem.is_error { "error" } else { "warning" };
+        let region = json!({ "startLine": problem.line, "startColumn": problem.column });
+        json!({
+            "ruleId": "document",
+            "level": level,
+            "message": { "text": problem.message() },
+            "locations": place(&problem.file, region),
+        })
     });
     equations.chain(problems).collect()
 }

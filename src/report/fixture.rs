@@ -1,6 +1,7 @@
 //! A small run built by hand that has every verdict, strength and oddity: what the snapshots show.
 
 use super::{Chart, Run, charts};
+use crate::check::Finding;
 use crate::check::exact::Exact;
 use crate::check::verdict::{
     Assignment, Assumed, Certificate, Correction, Counterexample, Difference, DimensionFinding, DimensionStatus,
@@ -225,7 +226,7 @@ pub(super) fn run() -> Run {
             dimension: "kg m² s⁻¹".into(),
             from: "16".into(),
         }],
-        problems: vec!["line 7: a display is not closed: `$$ a`".into()],
+        problems: vec![unclosed()],
         equations,
     };
     Run {
@@ -236,6 +237,12 @@ pub(super) fn run() -> Run {
         charts: Some(|_| Ok(vec![chart()])),
         micros: 31_400,
     }
+}
+
+/// A problem of a document.
+pub(super) fn unclosed() -> Finding {
+    let text = "notes/gyroscope.md:7:1: a display is not closed: `$$ a`".into();
+    Finding { text, is_error: true, file: "notes/gyroscope.md".into(), line: 7, column: 1 }
 }
 
 /// A document without equations.

@@ -1,4 +1,5 @@
 use super::*;
+use crate::check::Finding;
 use crate::check::verdict::DocumentReport;
 
 const UNTIMED: Options = Options { times: false, language: Language::English };
@@ -193,7 +194,7 @@ fn hostile_notes_stay_text() {
     for text in [&mut document.name, &mut document.path, &mut document.title] {
         *text = hostile.into();
     }
-    document.problems = vec![hostile.into()];
+    document.problems = vec![Finding { text: hostile.into(), file: hostile.into(), ..fixture::unclosed() }];
     (document.assumed[0].symbol, document.assumed[0].role) = (hostile.into(), hostile.into());
     for judgement in &mut document.equations {
         for text in [&mut judgement.label, &mut judgement.section, &mut judgement.latex, &mut judgement.kind] {

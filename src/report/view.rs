@@ -216,7 +216,7 @@ impl<'r> Builder<'r> {
             problems_html: document
                 .problems
                 .iter()
-                .map(|p| self.renderer.prose(&self.options.language.say_problem(p)))
+                .map(|p| self.renderer.prose(&self.options.language.say_problem(&p.text)))
                 .collect(),
             dimensions: view_dimensions::summary(document, &self.renderer),
             counts,

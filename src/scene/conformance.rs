@@ -114,9 +114,36 @@ fn ladder() -> Vec<Arithmetic> {
 
 /// The fullest equations, integrated in double-double.
 fn truth(scene: &'static Scene, parameters: &[f64], quantities: &[usize], times: &[f64]) -> Option<Values> {
-    let task = Task { scene, parameters, quantities, times, tolerance: 1e-28 };
-    let integrated = |m: &&&dyn AnyModel| m.about().kind == Kind::Integrated && m.gives(quantities);
-    scene.models.iter().rev().filter(integrated).find_map(|m| Some(m.run(&task, Arithmetic::Double).ok()?.0))
+    integrated(&Task { scene, parameters, quantities, times, tolerance: 1e-28 })
+}
+
+fn integrated(task: &Task) -> Option<Values> {
+    let integrated = |m: &&&dyn AnyModel| m.about().kind == Kind::Integrated && m.gives(task.quantities);
+    task.scene.models.iter().rev().filter(integrated).find_map(|m| Some(m.run(task, Arithmetic::Double).ok()?.0))
+}
+
+/// A relative change of a parameter that is small beside every distance from a separatrix, and large beside rounding.
+const CHANGE: f64 = 1e-13;
+
+/// How far each quantity moves when the parameters change by a relative 1: the condition of the motion. An error that is
+/// made on the way grows as one that is made at the beginning.
+fn condition(scene: &'static Scene, parameters: &[f64], quantities: &[usize], times: &[f64]) -> Vec<f64> {
+    let run = |parameters: &[f64]| {
+        integrated(&Task { scene, parameters, quantities, times, tolerance: 1e-22 }).unwrap_or_else(|| panic!("no truth"))
+    };
+    let here = run(parameters);
+    let mut condition = vec![0.0; quantities.len()];
+    for (k, value) in parameters.iter().enumerate() {
+        let size = if *value == 0.0 { 1.0 } else { value.abs() };
+        let mut changed = parameters.to_vec();
+        changed[k] += CHANGE * size;
+        let change = (changed[k] - value) / size;
+        let there = run(&changed);
+        for (row, condition) in condition.iter_mut().enumerate() {
+            *condition += here.row(row).distance(&there.row(row)) / change;
+        }
+    }
+    condition
 }
 
 /// Every model in every number type gives what the fullest equations give: exact and integrated ones to within
@@ -126,41 +153,54 @@ fn all_models_of_a_scene_agree() {
     for scene in SCENES {
         for case in motions(scene) {
             let all: Vec<usize> = (0..scene.quantities.len()).collect();
-            let truth = truth(scene, &parameters(scene, &case), &all, &times(case.until)).unwrap();
+            let (parameters, times) = (parameters(scene, &case), times(case.until));
+            let truth = truth(scene, &parameters, &all, &times).unwrap();
+            let condition = condition(scene, &parameters, &all, &times);
+            let exact = Exact { truth, condition };
             for model in scene.models.iter().filter(|m| m.about().kind != Kind::Approximation) {
-                let machine = agrees(scene, &case, *model, Arithmetic::Machine, &truth);
+                let machine = agrees(scene, &case, *model, Arithmetic::Machine, &exact);
                 assert!(machine || case.name != "default", "{}: {} gives no numbers", scene.name, model.about().name);
                 // In many bits an implicit method takes minutes; the integrators' own suite has it there.
                 let implicit = model.about().name == "gauss-legendre";
                 for arithmetic in ladder().into_iter().skip(1).filter(|a| !implicit || a.bits() <= 104) {
-                    agrees(scene, &case, *model, arithmetic, &truth);
+                    agrees(scene, &case, *model, arithmetic, &exact);
                 }
             }
         }
     }
 }
 
+/// The errors of one tolerance that a step may make.
+const ERRORS: f64 = 10.0;
+
+/// What a motion is, and how it is conditioned.
+struct Exact {
+    truth: Values,
+    condition: Vec<f64>,
+}
+
 /// Compares a model with the fullest equations in all quantities that it gives; false where it does not apply. Every model
 /// is to apply to its scene's default motion in machine numbers.
-fn agrees(scene: &'static Scene, case: &Case, model: &dyn AnyModel, arithmetic: Arithmetic, truth: &Values) -> bool {
+fn agrees(scene: &'static Scene, case: &Case, model: &dyn AnyModel, arithmetic: Arithmetic, exact: &Exact) -> bool {
     let (parameters, times) = (parameters(scene, case), times(case.until));
     let what = format!("{}, {}: {} in {}", scene.name, case.name, model.about().name, arithmetic.name());
     let quantities: Vec<usize> = (0..scene.quantities.len()).filter(|q| model.gives(&[*q])).collect();
     let tolerance = (8.0 * f64::exp2(-f64::from(arithmetic.bits().min(104)))).max(1e-26);
     let task = Task { scene, parameters: &parameters, quantities: &quantities, times: &times, tolerance };
-    let values = match model.run(&task, arithmetic) {
-        Ok((values, _)) => values,
+    let (values, cost) = match model.run(&task, arithmetic) {
+        Ok(run) => run,
         Err(SceneError::Regime { .. } | SceneError::NotGiven { .. }) => return false,
         Err(why) => panic!("{what}: {why}"),
     };
-    // Relative to the largest value of a quantity, or one.
-    let bound = 2e5 * tolerance * case.until.max(1.0);
-    let sizes = truth.to_f64();
+    // Each step may err by the tolerance, and each error grows as the motion's condition says.
+    let steps = cost.steps.max(1) as f64;
+    let sizes = exact.truth.to_f64();
     for (row, &quantity) in quantities.iter().enumerate() {
         let most = sizes[quantity].iter().fold(1.0_f64, |most, x| most.max(x.abs()));
-        let distance = values.row(row).distance(&truth.row(quantity)) / most;
+        let distance = values.row(row).distance(&exact.truth.row(quantity));
+        let bound = ERRORS * tolerance * steps * (most + exact.condition[quantity]);
         let name = scene.quantities[quantity].name;
-        println!("{what}: {name} {distance:.1e}");
+        println!("{what}: {name} {distance:.1e}, bound {bound:.1e}");
         assert!(distance < bound, "{what}: {name} is off by {distance:e}, bound {bound:e}");
     }
     true

@@ -15,7 +15,7 @@ use std::time::{Duration, Instant};
 
 use notify::{Event, EventKind, RecommendedWatcher, RecursiveMode, Watcher};
 
-use crate::{files, report, verify};
+use crate::{document, files, report, verify};
 
 use round::Rounds;
 use server::{Board, Server};
@@ -70,6 +70,10 @@ pub fn watch(
     say: &dyn Fn(&str),
 ) -> miette::Result<()> {
     let first = settings()?;
+    // Notes that go and come back are waited for; notes that never were are a slip of the pen.
+    if let Some(missing) = first.paths.iter().find(|path| !path.exists()) {
+        document::read(missing)?;
+    }
     let board = Arc::new(Board::default());
     let server = Server::start(port, Arc::clone(&board))?;
     let (send, events) = channel();

@@ -1,6 +1,6 @@
 //! One round: the notes are read, what changed is judged, what became of it is told.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -23,6 +23,8 @@ const NAMED: usize = 6;
 #[derive(Default)]
 pub struct Rounds {
     notes: HashMap<PathBuf, Notes>,
+    /// The notes that could not be read in the last round.
+    missed: HashSet<PathBuf>,
     /// The request that the memories are of.
     request: String,
 }
@@ -44,8 +46,9 @@ impl Rounds {
             self.request = request;
         }
         let paths = named(&settings.paths);
-        self.notes.retain(|path, _| paths.contains(path));
-        let mut lines = Vec::new();
+        let gone = self.notes.extract_if(|path, _| !paths.contains(path));
+        let mut lines: Vec<String> = gone.map(|(_, notes)| format!("{} is gone", notes.verified.report.path)).collect();
+        lines.sort();
         for path in &paths {
             let in_folder = !settings.paths.contains(path);
             lines.extend(self.read(path, in_folder, &settings.request));
@@ -74,12 +77,18 @@ impl Rounds {
             Err(document::ReadError::NoEquation { .. } | document::ReadError::Empty { .. }) if in_folder => {
                 return None;
             }
-            Err(error) => return Some(format!("{error}; the report shows what was there before")),
+            Err(error) => {
+                self.missed.insert(path.to_owned());
+                let before = if self.notes.contains_key(path) { "; the report shows what was there before" } else { "" };
+                return Some(format!("{error}{before}"));
+            }
         };
+        // What was told to be missing is told to be there, even if it is as it was.
+        let was_missed = self.missed.remove(path);
         let known = self.notes.remove(path);
         let source = Arc::clone(&document.source);
         let (mut memory, before) = match known {
-            Some(notes) if notes.source == source => {
+            Some(notes) if notes.source == source && !was_missed => {
                 self.notes.insert(path.to_owned(), notes);
                 return None;
             }
@@ -115,7 +124,7 @@ fn line(verified: &Verified, before: Option<&DocumentReport>, anew: usize, time:
     let counted =
         words.iter().filter(|(v, _)| counts.with(*v) > 0).map(|(v, word)| format!("{} {word}", counts.with(*v)));
     let mut text = format!("{}: {}", report.path, counted.collect::<Vec<_>>().join(", "));
-    let unexpected = report.equations.iter().filter(|e| !e.as_expected).count() + verified.problems.len();
+    let unexpected = report.equations.iter().filter(|e| !e.as_expected).count() + report.problems.iter().filter(|p| p.is_error).count();
     // Writing to a string cannot fail.
     let _ =
         if unexpected > 0 { write!(text, ", {unexpected} not as expected") } else { write!(text, ", all as expected") };

@@ -21,16 +21,17 @@ let failed = 0;
 let passed = 0;
 
 /// Opens a page, runs the test, and says how it went. Whatever a page asks for beside files, and whatever it complains
-/// of, is a failure.
-export async function test(name, file, body, options = {}) {
+/// of, is a failure. `from` is the address of a server that the page comes from, `mayComplain` what it may complain of.
+export async function test(name, file, body, { from = "file:", mayComplain = /^$/, ...options } = {}) {
   const context = await browser.newContext({ viewport: { width: 1280, height: 900 }, ...options });
   const page = await context.newPage();
   const complaints = [];
-  page.on("console", (message) => { if (["error", "warning"].includes(message.type())) complaints.push(message.text()); });
-  page.on("pageerror", (error) => complaints.push(error.message));
-  page.on("request", (request) => { if (!request.url().startsWith("file:")) complaints.push("asks for " + request.url()); });
+  const complain = (text) => { if (!mayComplain.test(text)) complaints.push(text); };
+  page.on("console", (message) => { if (["error", "warning"].includes(message.type())) complain(message.text()); });
+  page.on("pageerror", (error) => complain(error.message));
+  page.on("request", (request) => { if (!request.url().startsWith(from)) complaints.push("asks for " + request.url()); });
   try {
-    await page.goto(pathToFileURL(path.join(pages, file)).href);
+    await page.goto(from === "file:" ? pathToFileURL(path.join(pages, file)).href : from);
     await body(page, context);
     if (complaints.length > 0) throw new Error(complaints.join("; "));
     passed += 1;

@@ -2,7 +2,7 @@
 
 use std::collections::{HashMap, HashSet};
 
-use crate::check::book::{Book, Version};
+use crate::check::book::{Book, Entry, Version};
 use crate::latex::ast::{Kind, Node, ProductOp, Sign};
 use crate::semantics::units::Dimension;
 use crate::semantics::{self, EntryKind, Scope};
@@ -15,6 +15,18 @@ const PAIRED: usize = 40;
 /// In how many equations each symbol stands above and below the bar.
 #[derive(Debug, Default)]
 pub struct Uses(HashMap<(String, bool), usize>);
+
+/// The symbols of an equation, as printed, with the side of the bar that they stand on.
+pub type Used = HashSet<(String, bool)>;
+
+/// Those of an equation.
+pub fn used(entry: &Entry) -> Used {
+    let mut found = Used::new();
+    if let Ok(tree) = &entry.formula(Version::Printed).tree {
+        collect(&entry.scope, tree, true, &mut found);
+    }
+    found
+}
 
 /// A symbol of a scope with its dimension and uses.
 struct Candidate<'s> {
@@ -37,19 +49,11 @@ struct Factor {
 }
 
 impl Uses {
-    /// Counts the uses in the equations of a book, as printed.
-    pub fn count(book: &Book) -> Self {
-        let mut uses = Uses::default();
-        for entry in &book.entries {
-            let mut found = HashSet::new();
-            if let Ok(tree) = &entry.formula(Version::Printed).tree {
-                collect(&entry.scope, tree, true, &mut found);
-            }
-            for use_ in found {
-                *uses.0.entry(use_).or_default() += 1;
-            }
+    /// Counts another equation's.
+    pub fn count(&mut self, used: &Used) {
+        for one in used {
+            *self.0.entry(one.clone()).or_default() += 1;
         }
-        uses
     }
 
     /// The simplest factors of this dimension, in LaTeX, those first whose symbols are most used in that place.
@@ -129,7 +133,7 @@ fn grouped(name: &str) -> String {
 }
 
 /// The symbols of a formula with the side of the bar that they stand on.
-fn collect(scope: &Scope, node: &Node, above: bool, found: &mut HashSet<(String, bool)>) {
+fn collect(scope: &Scope, node: &Node, above: bool, found: &mut Used) {
     let pattern = semantics::pattern_of(scope, node);
     if scope.get(&pattern).is_some() {
         found.insert((pattern, above));

@@ -17,6 +17,8 @@ mod readings;
 #[cfg(test)]
 mod tests;
 
+use std::sync::Arc;
+
 use crate::semantics;
 
 use self::affine::{Affine, Outcome, System};
@@ -31,7 +33,7 @@ use super::verdict::{DimensionFinding, DimensionStatus, InferredDimension, Judge
 pub struct Survey<'b> {
     book: &'b Book,
     quantities: Quantities,
-    equations: Vec<Equation>,
+    equations: Vec<Arc<Equation>>,
     uses: Uses,
     /// Whether more hold undeclared units than are solved for.
     too_many: bool,
@@ -84,9 +86,9 @@ impl<'b> Survey<'b> {
     /// As [`Survey::new`], without reading again what is as it was.
     pub fn with(prints: &Fingerprints<'b>, readings: &mut Readings) -> Self {
         let book = prints.book;
-        let (equations, quantities) = readings.equations(prints);
+        let (equations, quantities, uses) = readings.equations(prints);
         let too_many = equations.iter().map(|e| e.premises.len() + e.stated().count()).sum::<usize>() > MOST_STATED;
-        Survey { book, quantities, equations, uses: Uses::count(book), too_many }
+        Survey { book, quantities, equations, uses, too_many }
     }
 
     /// Enters the finding on an equation, and on its correction, into its judgement.
@@ -202,6 +204,10 @@ struct Group {
 /// Compares what a joint joins; the groups of different dimension, where there are several whatever is unknown.
 fn compare(joint: &JointReading, system: &mut System, origin: usize, count: &mut Comparison) -> Option<Vec<Group>> {
     for component in &joint.components {
+        if let Some(agreed) = all_known(joint, component) {
+            count.agreed += agreed;
+            continue;
+        }
         let mut dimensions = component.clone();
         if joint.role != semantics::Role::Sum {
             // An argument is compared with a number.
@@ -225,6 +231,18 @@ fn compare(joint: &JointReading, system: &mut System, origin: usize, count: &mut
         count.agreed += dimensions.len().saturating_sub(1 + bound);
     }
     None
+}
+
+/// How often the dimensions of a component agree where all of them are known and the same, as nearly always.
+fn all_known(joint: &JointReading, component: &[(usize, Affine)]) -> Option<usize> {
+    let mut known = component.iter().map(|(_, a)| a.dimension());
+    match joint.role {
+        semantics::Role::Sum => {
+            let first = known.next()??;
+            known.all(|d| d == Some(first)).then(|| component.len() - 1)
+        }
+        _ => known.all(|d| d.is_some_and(|d| d.is_none())).then_some(component.len()),
+    }
 }
 
 /// The parts by their dimensions, in the order of printing.

@@ -4,6 +4,7 @@
 //! document's numbers, in the order of the document, when the readings are put together.
 
 use std::collections::HashSet;
+use std::sync::Arc;
 
 use rayon::prelude::*;
 
@@ -15,6 +16,7 @@ use crate::trace::{Trace, recorded};
 
 use super::Equation;
 use super::affine::Affine;
+use super::mend::{self, Used, Uses};
 use super::reading::{self, LinkReading, Quantities};
 
 /// What is remembered of earlier surveys.
@@ -27,12 +29,13 @@ struct Reading {
     /// The premises that are told here and nowhere before.
     premises: Vec<String>,
     quantities: Quantities,
-    equation: Equation,
+    used: Used,
+    equation: Arc<Equation>,
 }
 
 impl Readings {
-    /// The readings of a book's equations, and the quantities in the order in which they are met.
-    pub(super) fn equations(&mut self, prints: &Fingerprints) -> (Vec<Equation>, Quantities) {
+    /// The readings of a book's equations, the quantities in the order in which they are met, and what they use.
+    pub(super) fn equations(&mut self, prints: &Fingerprints) -> (Vec<Arc<Equation>>, Quantities, Uses) {
         let book = prints.book;
         self.0.forget_others(prints);
         let premises = premises(book);
@@ -47,8 +50,9 @@ impl Readings {
             .enumerate()
             .map(|(k, (known, premises))| known.is_none().then(|| recorded(|| read(book, k, premises))))
             .collect();
-        let mut quantities = Quantities::default();
+        let (mut quantities, mut uses) = (Quantities::default(), Uses::default());
         let readings = remembered.iter().zip(&new).map(|(known, new)| known.or(new.as_ref().map(|(r, _)| r)));
+        readings.clone().flatten().for_each(|reading| uses.count(&reading.used));
         let equations = readings.zip(book.entries.iter());
         let equations = equations
             .map(|(reading, entry)| reading.map(|r| r.entered(&entry.scope, &mut quantities)).unwrap_or_default());
@@ -56,7 +60,7 @@ impl Readings {
         for (k, (reading, trace)) in new.into_iter().enumerate().filter_map(|(k, new)| Some((k, new?))) {
             self.0.learn(prints, k, trace, reading);
         }
-        (equations, quantities)
+        (equations, quantities, uses)
     }
 }
 
@@ -76,9 +80,9 @@ fn premises(book: &Book) -> Vec<Vec<String>> {
 fn read(book: &Book, index: usize, premises: &[String]) -> Reading {
     let entry = &book.entries[index];
     let mut quantities = Quantities::default();
-    let premises = premises.to_vec();
+    let (premises, used) = (premises.to_vec(), mend::used(entry));
     if entry.scope.natural_units {
-        return Reading { premises, quantities, equation: Equation::default() };
+        return Reading { premises, quantities, used, equation: Arc::default() };
     }
     let mapped = entry.annotation().is_some_and(|a| a.maps.is_some());
     let clauses = |version| book.statement(index, version).map(|s| s.clauses).unwrap_or_default();
@@ -88,7 +92,7 @@ fn read(book: &Book, index: usize, premises: &[String]) -> Reading {
     let corrected = correction.map(|clauses| clauses.iter().map(&mut read).collect());
     let stated = stated(&entry.scope, &premises, &mut quantities);
     let equation = Equation { printed, corrected, premises: stated };
-    Reading { premises, quantities, equation }
+    Reading { premises, quantities, used, equation: Arc::new(equation) }
 }
 
 /// What premises say of unknown dimensions.
@@ -102,7 +106,7 @@ fn stated(scope: &Scope, premises: &[String], quantities: &mut Quantities) -> Ve
 
 impl Reading {
     /// With the numbers of the document for the quantities, as they are declared in the scope where it stands.
-    fn entered(&self, scope: &Scope, quantities: &mut Quantities) -> Equation {
+    fn entered(&self, scope: &Scope, quantities: &mut Quantities) -> Arc<Equation> {
         let numbers: Vec<usize> = self
             .quantities
             .all
@@ -112,11 +116,14 @@ impl Reading {
                 quantities.number(&semantics::Quantity { declared, ..quantity.clone() })
             })
             .collect();
-        let mut equation = self.equation.clone();
-        let Equation { printed, corrected, premises } = &mut equation;
+        let mut entered = Arc::clone(&self.equation);
+        if numbers.is_empty() {
+            return entered;
+        }
+        let Equation { printed, corrected, premises } = Arc::make_mut(&mut entered);
         let links = printed.iter_mut().chain(corrected.iter_mut().flatten()).flatten();
         links.chain(premises).for_each(|link| renumber(link, &numbers));
-        equation
+        entered
     }
 }
 

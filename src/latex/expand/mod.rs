@@ -175,6 +175,9 @@ impl Macros {
     /// # Errors
     /// A macro lacks an argument, or the expansion does not end or becomes too long. The error's place is in `source`.
     pub fn expand(&self, source: &str) -> Result<Expanded, ParseError> {
+        if !self.may_expand(source) {
+            return Ok(Expanded::verbatim(source));
+        }
         let tokens = lex(source);
         if !tokens.iter().any(|(kind, span)| *kind == Kind::Word && self.expands(&source[span.clone()])) {
             return Ok(Expanded::verbatim(source));
@@ -187,6 +190,15 @@ impl Macros {
         expander.waiting.extend(tokens.map(token));
         expander.run()?;
         Ok(expander.expanded)
+    }
+
+    /// Whether anything behind a backslash may have to be expanded: a first look that costs little.
+    fn may_expand(&self, source: &str) -> bool {
+        source.match_indices('\\').any(|(at, _)| {
+            let rest = &source[at..];
+            let end = rest[1..].find(|c: char| !c.is_ascii_alphabetic() && c != '@').map_or(rest.len(), |end| end + 1);
+            end > 1 && self.expands(&rest[..end])
+        })
     }
 
     /// Whether a macro (with its backslash) may have to be expanded.
