@@ -1,13 +1,15 @@
 //! A document ready to be judged: every formula parsed, every equation with the declarations in force where it stands.
 
+use std::borrow::Cow;
 use std::collections::{HashMap, HashSet};
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use rayon::prelude::*;
 
 use crate::document::{Declarations, Document, Equation, EquationAnnotation, Item, LinkPremises, Problem, Spanned};
+use crate::latex::ast::{Kind, Node};
 use crate::latex::expand::{Expanded, Macros};
-use crate::latex::{self, ParseError, ast::Node};
+use crate::latex::{self, ParseError};
 use crate::semantics::{self, Scope, Statement};
 
 use super::circle::{Circle, circles};
@@ -92,6 +94,8 @@ pub struct Entry {
     /// The declared symbols it mentions: the pattern, and where it is declared, which tells apart the symbols of different
     /// sections that are spelt alike.
     pub mentions: HashMap<String, usize>,
+    /// It taken apart as printed and as corrected, once that was asked for.
+    pub(super) statements: [OnceLock<Result<Statement, Unclear>>; 2],
 }
 
 impl Entry {
@@ -160,7 +164,8 @@ impl Place<'_> {
         }
         let mentions: HashMap<String, usize> =
             mentions.into_iter().filter_map(|m| scope.get(&m).map(|e| e.declared).map(|d| (m, d))).collect();
-        Entry { equation: equation.clone(), scope, section, printed, reading, correction, previous, mentions }
+        let (equation, statements) = (equation.clone(), Default::default());
+        Entry { equation, scope, section, printed, reading, correction, previous, mentions, statements }
     }
 }
 
@@ -319,8 +324,13 @@ impl Book {
 
     /// An equation taken apart. One that begins with a relation continues the equation before, as corrected.
     pub fn statement(&self, index: usize, version: Version) -> Result<Statement, Unclear> {
-        let tree = self.entries[index].formula(version).tree.as_ref().map_err(|e| Unclear::Latex(e.clone()))?;
-        self.statement_of(index, tree)
+        let entry = &self.entries[index];
+        let tree = entry.formula(version).tree.as_ref().map_err(|e| Unclear::Latex(e.clone()))?;
+        // What depends on another equation, or on what is declared, is taken apart each time.
+        if semantics::begins_with_relation(tree) || matches!(tree.kind, Kind::List(_)) {
+            return self.statement_of(index, tree);
+        }
+        entry.statements[version as usize].get_or_init(|| self.statement_of(index, tree)).clone()
     }
 
     /// As [`Book::statement`], for a tree that stands in the place of the equation's own.
@@ -345,9 +355,9 @@ impl Book {
             // What an approximation leaves out is measured and not read.
             let approximates =
                 self.entries[at].annotation().is_some_and(|a| a.small.is_some() || !a.harmonics.is_empty());
-            let tree = if approximates { semantics::without_remainder(tree) } else { tree.clone() };
-            let tree = &semantics::without_index_ranges(&tree, &self.entries[at].scope);
-            statement = Some(semantics::statement(tree, statement.as_ref()).map_err(|e| match at {
+            let tree = if approximates { Cow::Owned(semantics::without_remainder(tree)) } else { Cow::Borrowed(tree) };
+            let tree = semantics::without_index_ranges(&tree, &self.entries[at].scope);
+            statement = Some(semantics::statement(&tree, statement.as_ref()).map_err(|e| match at {
                 _ if at == index => Unclear::Meaning(e),
                 _ => before(at, &e.message),
             })?);

@@ -52,7 +52,9 @@ impl Index<usize> for Entries {
 impl IndexMut<usize> for Entries {
     fn index_mut(&mut self, index: usize) -> &mut Entry {
         trace::equation(index);
-        Arc::make_mut(&mut self.0[index])
+        let entry = Arc::make_mut(&mut self.0[index]);
+        entry.statements = Default::default();
+        entry
     }
 }
 

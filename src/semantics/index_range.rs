@@ -1,13 +1,15 @@
 //! `j = 1, 2` behind an equation: what an index runs through, printed as a list of its values.
 
+use std::borrow::Cow;
+
 use crate::latex::ast::{Kind, Link, Node, Rel};
 
 use super::name::spelling;
 use super::scope::Scope;
 
 /// A formula without the lists of index values that agree with what is declared; others are kept, and judged.
-pub fn without_index_ranges(node: &Node, scope: &Scope) -> Node {
-    let Kind::List(items) = &node.kind else { return node.clone() };
+pub fn without_index_ranges<'n>(node: &'n Node, scope: &Scope) -> Cow<'n, Node> {
+    let Kind::List(items) = &node.kind else { return Cow::Borrowed(node) };
     let mut kept = Vec::new();
     let mut k = 0;
     while let Some(item) = items.get(k) {
@@ -20,9 +22,9 @@ pub fn without_index_ranges(node: &Node, scope: &Scope) -> Node {
         }
     }
     match kept.len() {
-        n if n == items.len() => node.clone(),
-        1 => kept.swap_remove(0),
-        _ => Node::new(Kind::List(kept), node.span.clone()),
+        n if n == items.len() => Cow::Borrowed(node),
+        1 => Cow::Owned(kept.swap_remove(0)),
+        _ => Cow::Owned(Node::new(Kind::List(kept), node.span.clone())),
     }
 }
 
