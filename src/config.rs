@@ -205,7 +205,6 @@ impl Config {
     /// A glob that is none, or that no file matches.
     pub fn files(&self) -> Result<Option<Vec<PathBuf>>, ConfigError> {
         let Some(files) = &self.files else { return Ok(None) };
-        let excluded = self.globs(self.exclude.as_deref())?;
         let mut found = Vec::new();
         for (file, pattern) in files.iter().zip(self.globs(Some(files))?) {
             let matches = glob::glob(pattern.as_str()).map_err(|e| self.wrong(file.span(), e.msg, GLOBS))?;
@@ -214,23 +213,25 @@ impl Config {
                 let message = format!("no file matches `{}`", file.get_ref());
                 return Err(self.wrong(file.span(), &message, GLOBS));
             }
-            found.extend(matches.into_iter().filter(|path| !excluded.iter().any(|glob| glob.matches_path(path))));
+            found.extend(matches.into_iter().filter(|path| !self.excludes(path)));
         }
         found.sort();
         found.dedup();
         Ok(Some(found))
     }
 
-    /// Whether a file is excluded.
+    /// Whether a file is excluded, or a folder that it is in.
     pub fn excludes(&self, path: &Path) -> bool {
         let globs = self.globs(self.exclude.as_deref()).unwrap_or_default();
-        globs.iter().any(|glob| glob.matches_path(path))
+        let path = path.strip_prefix(".").unwrap_or(path);
+        path.ancestors().any(|part| globs.iter().any(|glob| glob.matches_path(part)))
     }
 
     /// Globs from its folder, in which no letter of the folder's own name is one.
     fn globs(&self, globs: Option<&[Spanned<String>]>) -> Result<Vec<glob::Pattern>, ConfigError> {
         let folder = glob::Pattern::escape(&self.folder().to_string_lossy());
         let whole = |text: &str| if folder.is_empty() { text.to_owned() } else { format!("{folder}/{text}") };
+        let whole = |text: &str| whole(text.trim_end_matches('/'));
         let read = |text: &Spanned<String>| {
             glob::Pattern::new(&whole(text.get_ref())).map_err(|e| self.wrong(text.span(), e.msg, GLOBS))
         };
@@ -340,6 +341,14 @@ mod tests {
         let names: Vec<_> =
             found.iter().map(|p| p.strip_prefix(config.folder()).unwrap().display().to_string()).collect();
         assert_eq!(names, ["lectures/a.md", "lectures/spring/b.md"]);
+        let near =
+            Config::parse(Path::new("kenzan.toml"), "exclude = ['old', 'drafts/', 'a/**', 'x*.md']\n".into()).unwrap();
+        for path in ["old/a.md", "./old/b/c.md", "drafts/a.md", "./a/b.md", "a/b/c.md", "./x1.md"] {
+            assert!(near.excludes(Path::new(path)), "{path}");
+        }
+        for path in ["older/a.md", "lectures/old/a.md", "./b.md", "b/x1.md"] {
+            assert!(!near.excludes(Path::new(path)), "{path}");
+        }
         std::fs::remove_dir_all(&folder).unwrap();
     }
 }

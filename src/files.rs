@@ -54,10 +54,33 @@ pub fn read_any(paths: &[PathBuf]) -> Result<Vec<Document>, ReadError> {
     Ok(documents)
 }
 
+/// Paths in which each sidecar, `NAME.kenzan.toml`, is replaced by the notes that it belongs to; each path once.
+pub fn with_sidecars(paths: &[PathBuf]) -> Vec<PathBuf> {
+    let mut found: Vec<PathBuf> = Vec::new();
+    for path in paths {
+        let name = path.file_name().map(|name| name.to_string_lossy().into_owned()).unwrap_or_default();
+        let of = |name: &str| {
+            let notes = ENDINGS.iter().map(|ending| path.with_file_name(format!("{name}.{ending}")));
+            notes.filter(|notes| notes.is_file()).collect()
+        };
+        let named: Vec<PathBuf> = name.strip_suffix(".kenzan.toml").map_or_else(|| vec![path.clone()], of);
+        for path in named {
+            if !found.contains(&path) {
+                found.push(path);
+            }
+        }
+    }
+    found
+}
+
 /// The files of a folder that may be notes, sorted.
 pub fn within(folder: &Path) -> Vec<PathBuf> {
     let mut found = Vec::new();
     collect(folder, DEEPEST, &mut found);
+    // `notes.md`, and not `./notes.md`: other programs look files up by their names.
+    for path in &mut found {
+        *path = path.strip_prefix(".").map(Path::to_owned).unwrap_or_else(|_| path.clone());
+    }
     found.sort();
     let is_latex = |path: &PathBuf| path.extension().is_some_and(|e| e == "tex" || e == "ltx");
     let documents: Vec<bool> = found.iter().map(|path| is_latex(path) && is_whole(path)).collect();
@@ -116,6 +139,8 @@ mod tests {
         let empty = folder.join("b/_site/none");
         std::fs::create_dir_all(&empty).unwrap();
         assert!(matches!(read(&[empty]), Err(ReadError::NoNotes { .. })));
+        let all = ["z.kenzan.toml", "z.md", "gone.kenzan.toml"].map(|name| folder.join(name));
+        assert_eq!(with_sidecars(&all), [folder.join("z.md")]);
         std::fs::remove_dir_all(&folder).unwrap();
     }
 }

@@ -112,3 +112,29 @@ fn the_hook_and_the_workflow_call_what_there_is() {
     let calls = steps.iter().filter_map(|step| step["run"].as_str()).any(|run| run.contains("kenzan verify"));
     assert!(calls, "{workflow:#}");
 }
+
+#[test]
+fn what_is_excluded_is_neither_verified_nor_hooked_and_a_sidecar_is_that_of_its_notes() {
+    let sidecar = "[equation.'2']\nexpect = \"fails\"\n";
+    let config = "exclude = [\"old\", \"draft-*\"]\n";
+    let files = [("a.md", GOOD), ("b.md", BAD), ("old/c.md", BAD), ("draft-1.md", BAD), ("kenzan.toml", config)];
+    let folder = folder("excluded", &files);
+    let verified = kenzan(&folder, &["verify", "--format", "json"]);
+    let report: serde_json::Value = serde_json::from_str(&out(&verified)).unwrap();
+    let paths: Vec<&str> = report["documents"].as_array().unwrap().iter().filter_map(|d| d["path"].as_str()).collect();
+    assert_eq!(paths, ["a.md", "b.md"], "as other programs name them, without `./`");
+    let hooked = kenzan(&folder, &["verify", "--hook", "a.md", "draft-1.md", "old/c.md"]);
+    assert_eq!(hooked.status.code(), Some(0), "{}", err(&hooked));
+    assert_eq!(kenzan(&folder, &["verify", "draft-1.md"]).status.code(), Some(1), "who names it means it");
+    assert_eq!(kenzan(&folder, &["verify", "--hook", "b.kenzan.toml"]).status.code(), Some(1), "its notes fail");
+    std::fs::write(folder.join("b.kenzan.toml"), sidecar).unwrap();
+    assert_eq!(kenzan(&folder, &["verify", "--hook", "b.kenzan.toml"]).status.code(), Some(0), "as is expected now");
+}
+
+#[test]
+fn who_gets_the_bundled_notes_without_asking_is_told() {
+    let folder = folder("bundled", &[]);
+    let told = |arguments: &[&str]| err(&kenzan(&folder, arguments)).contains("these are the bundled notes");
+    assert!(told(&["verify", "--only", "56"]));
+    assert!(!told(&["verify", "--only", "56", "--bundled"]));
+}

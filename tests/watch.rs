@@ -50,7 +50,7 @@ impl Watch {
         std::thread::spawn(move || output.lines().map_while(Result::ok).try_for_each(|line| send.send(line)));
         let mut watch = Watch { process, lines, port: 0, notes: folder.join("notes.md") };
         let first = watch.line();
-        assert!(first.trim_start_matches("./").starts_with("notes.md: 2 hold, all as expected; 2 judged in "), "{first}");
+        assert!(first.starts_with("notes.md: 2 hold, all as expected; 2 judged in "), "{first}");
         let address = watch.line();
         let port = address.strip_prefix("report: http://127.0.0.1:").unwrap().split('/').next().unwrap();
         watch.port = port.parse().unwrap();

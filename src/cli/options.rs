@@ -115,10 +115,17 @@ impl Notes {
         if self.bundled {
             return Ok(verify::bundled());
         }
-        let paths = self.paths(config)?;
+        let mut paths = self.paths(config)?;
+        if lenient {
+            paths = files::with_sidecars(&paths);
+        }
         let read = if lenient && !paths.is_empty() { files::read_any(&paths) } else { verify::documents(&paths) };
         let mut documents = read?;
-        if self.paths.is_empty() {
+        if paths.is_empty() {
+            eprintln!("no notes are named, and there is no kenzan.toml here or above: these are the bundled notes");
+        }
+        // Of the files that a hook is given nobody has chosen any.
+        if self.paths.is_empty() || lenient {
             documents.retain(|document| !config.excludes(&document.path));
         }
         Ok(documents)

@@ -45,6 +45,7 @@ fn settings(arguments: &Arguments) -> miette::Result<Settings> {
     let sampling = arguments.sampling.options(&config)?;
     Ok(Settings {
         paths: arguments.notes.paths(&config)?,
+        excluding: if arguments.notes.paths.is_empty() { config.clone() } else { Config::default() },
         request: arguments.diagnosis.request(sampling, Vec::new(), &config),
         options: report::Options { times: true, language: arguments.words.language(&config)? },
         config: (!config.path.as_os_str().is_empty()).then_some(config.path),

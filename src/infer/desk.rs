@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 
+use crate::check::exact::Inexact;
 use crate::check::verdict::{LinkJudgement, Verdict};
 use crate::check::{self, Book, Options, Outcome, Screen, Sight, Trial, Version, judge_one};
 use crate::diagnose::is_null;
@@ -117,6 +118,7 @@ impl Desk<'_> {
         self.holds(&few)
             && !self.vanishes()
             && self.holds(&Options { evidence: false, ..self.options.clone() })
+            && !self.is_trivial(&few)
             && self.could_fail()
     }
 
@@ -137,6 +139,19 @@ impl Desk<'_> {
             (Sight::Values(values), Some(size)) => values.iter().all(|v| v.abs() <= 1e-9 * size.max(1e-300)),
             _ => false,
         }
+    }
+
+    /// Whether every term is 0 by itself on the premises, even where their solutions, near a double root, are not sharp
+    /// enough to show it: what contradicts itself but for a gas of no temperature is no premise.
+    fn is_trivial(&self, few: &Options) -> bool {
+        let clauses = self.clauses();
+        let Some(clause) = clauses.get(self.link).filter(|_| !self.is_solution()) else { return false };
+        if is_null(&clause.lhs) || matches!(&clause.rhs, Side::Node(rhs) if is_null(rhs)) {
+            return false;
+        }
+        let options = Options { evidence: true, ..few.clone() };
+        let judged = judge_one(self.book, self.index, self.link, &self.taken, &options);
+        judged.and_then(|link| link.inexact).is_some_and(|why| why == Inexact::Trivial.to_string())
     }
 
     fn is_solution(&self) -> bool {

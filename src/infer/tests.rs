@@ -91,6 +91,33 @@ fn what_contradicts_its_premises_and_is_one_edit_away_fails() {
     assert!(mended.equations.iter().all(|e| e.suspect.is_none() && e.as_expected));
 }
 
+/// With the wrong (5) the premises leave no gas but one of no temperature, and of that everything holds.
+#[test]
+fn premises_that_leave_nothing_but_zero_show_nothing() {
+    let gas = r"
+$$ p V = n R T \tag{1} $$
+
+$$ U = n c_V T \tag{2} $$
+
+$$ H = U + p V \tag{3} $$
+
+$$ c_p = c_V + R \tag{4} $$
+
+$$ H = n c_V T \tag{5} $$
+
+With the adiabatic index $\gamma = c_p / c_V$ both heats can be expressed by $R$:
+
+$$ c_V = \frac{R}{\gamma - 1}, \quad c_p = \frac{\gamma R}{\gamma - 1} \tag{6} $$
+
+so that
+
+$$ U = \frac{2 p V}{\gamma - 1} \tag{7} $$
+";
+    assert_ne!(equation(&report(gas), "7").verdict, Verdict::Holds);
+    let right = gas.replace("H = n c_V T", "H = n c_p T").replace("2 p V", "p V");
+    assert_eq!(equation(&report(&right), "7").verdict, Verdict::Holds);
+}
+
 #[test]
 fn an_identity_with_a_wrong_sign_is_a_suspect_and_no_failure() {
     let report = report(r"$$ (a-b)^2 = a^2 - 2ab - b^2 \tag{1} $$");

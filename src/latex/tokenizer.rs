@@ -345,6 +345,9 @@ fn unexpected_character(c: char, start: usize) -> ParseError {
 
 fn unknown_macro(name: &str, span: Span) -> ParseError {
     let error = ParseError::new(format!("unknown macro `\\{name}`"), span);
+    if ["input", "include", "import", "subfile"].contains(&name) {
+        return error.help("files are not read within a display: write its text here, or the whole display there");
+    }
     match macros::suggestion(name) {
         Some(known) => error.help(format!("did you mean `\\{known}`?")),
         None => error.help(format!("write `\\operatorname{{{name}}}` if it is a function")),

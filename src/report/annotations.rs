@@ -139,9 +139,7 @@ fn capitalized(word: &str) -> String {
 }
 
 fn results(document: &DocumentReport) -> Vec<Value> {
-    let place = |path: &str, region: Value| {
-        json!([{ "physicalLocation": { "artifactLocation": { "uri": uri(path) }, "region": region } }])
-    };
+    let place = |path: &str, region: Value| json!([{ "physicalLocation": { "artifactLocation": { "uri": uri(path) }, "region": region } }]);
     let equations = told(document).map(|(j, is_error)| {
         let rule = match j.verdict {
             Verdict::Fails | Verdict::Undecided | Verdict::Unreadable => word(j.verdict),

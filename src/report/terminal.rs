@@ -49,7 +49,12 @@ fn summarize(text: &mut String, document: &DocumentReport, language: Language, p
         writeln!(text, "  {line}")?;
     }
     for problem in &document.problems {
-        writeln!(text, "  {} {}", paint.verdict(Verdict::Unreadable, "!"), one_line(&language.say_problem(&problem.text)))?;
+        writeln!(
+            text,
+            "  {} {}",
+            paint.verdict(Verdict::Unreadable, "!"),
+            one_line(&language.say_problem(&problem.text))
+        )?;
     }
     for judgement in document.equations.iter().filter(|j| is_shown(j)) {
         line(text, document, judgement, language, paint)?;

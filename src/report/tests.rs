@@ -99,6 +99,7 @@ fn github_snapshot() {
 fn notes_cannot_add_commands_to_a_workflow() {
     let mut run = fixture::run();
     run.documents[0].path = "a,line=1::x\n::error::b.md".into();
+    run.documents[0].problems.iter_mut().for_each(|p| p.file = "a,line=1::x\n::error::b.md".into());
     run.documents[0].equations.iter_mut().for_each(|e| e.as_expected = false);
     run.documents[0].equations[0].label = "1\n::error::c".into();
     run.documents.truncate(1);

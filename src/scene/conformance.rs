@@ -129,7 +129,8 @@ const CHANGE: f64 = 1e-13;
 /// made on the way grows as one that is made at the beginning.
 fn condition(scene: &'static Scene, parameters: &[f64], quantities: &[usize], times: &[f64]) -> Vec<f64> {
     let run = |parameters: &[f64]| {
-        integrated(&Task { scene, parameters, quantities, times, tolerance: 1e-22 }).unwrap_or_else(|| panic!("no truth"))
+        integrated(&Task { scene, parameters, quantities, times, tolerance: 1e-22 })
+            .unwrap_or_else(|| panic!("no truth"))
     };
     let here = run(parameters);
     let mut condition = vec![0.0; quantities.len()];

@@ -15,6 +15,7 @@ use std::time::{Duration, Instant};
 
 use notify::{Event, EventKind, RecommendedWatcher, RecursiveMode, Watcher};
 
+use crate::config::Config;
 use crate::{document, files, report, verify};
 
 use round::Rounds;
@@ -32,6 +33,8 @@ pub struct Settings {
     pub paths: Vec<PathBuf>,
     /// The `kenzan.toml` in force.
     pub config: Option<PathBuf>,
+    /// What says which of them are excluded.
+    pub excluding: Config,
     /// How to judge.
     pub request: verify::Request,
     /// What the report looks like.

@@ -45,7 +45,8 @@ impl Rounds {
             self.notes.clear();
             self.request = request;
         }
-        let paths = named(&settings.paths);
+        let mut paths = named(&settings.paths);
+        paths.retain(|path| !settings.excluding.excludes(path));
         let gone = self.notes.extract_if(|path, _| !paths.contains(path));
         let mut lines: Vec<String> = gone.map(|(_, notes)| format!("{} is gone", notes.verified.report.path)).collect();
         lines.sort();
@@ -79,7 +80,8 @@ impl Rounds {
             }
             Err(error) => {
                 self.missed.insert(path.to_owned());
-                let before = if self.notes.contains_key(path) { "; the report shows what was there before" } else { "" };
+                let before =
+                    if self.notes.contains_key(path) { "; the report shows what was there before" } else { "" };
                 return Some(format!("{error}{before}"));
             }
         };
@@ -124,7 +126,8 @@ fn line(verified: &Verified, before: Option<&DocumentReport>, anew: usize, time:
     let counted =
         words.iter().filter(|(v, _)| counts.with(*v) > 0).map(|(v, word)| format!("{} {word}", counts.with(*v)));
     let mut text = format!("{}: {}", report.path, counted.collect::<Vec<_>>().join(", "));
-    let unexpected = report.equations.iter().filter(|e| !e.as_expected).count() + report.problems.iter().filter(|p| p.is_error).count();
+    let unexpected = report.equations.iter().filter(|e| !e.as_expected).count()
+        + report.problems.iter().filter(|p| p.is_error).count();
     // Writing to a string cannot fail.
     let _ =
         if unexpected > 0 { write!(text, ", {unexpected} not as expected") } else { write!(text, ", all as expected") };

@@ -52,7 +52,57 @@ impl<'a> Expander<'a> {
                 Some(tokens) => Ok(Argument::Given(tokens)),
                 None => Ok(default.as_deref().map_or(Argument::Missing, |text| default_argument(text, of))),
             },
+            Parameter::Until(signs) => self.until(signs, of).map(Argument::Given),
+            Parameter::Literal(_) => Ok(Argument::Mark(false)),
         }
+    }
+
+    /// Takes the tokens that have to follow the macro `of`.
+    pub(in crate::latex) fn literal(&mut self, signs: &[String], of: &Token<'a>) -> Result<(), ParseError> {
+        let Some(after) = self.behind(signs, self.waiting.len()) else {
+            let signs = signs.concat();
+            return Err(lacks(of, &format!("`{signs}` has to follow it"), &format!("write `{}{signs}`", of.text)));
+        };
+        self.waiting.truncate(after);
+        Ok(())
+    }
+
+    /// What stands before these tokens, which are taken, too. Within braces they are sought in vain.
+    fn until(&mut self, signs: &[String], of: &Token<'a>) -> Result<Vec<Token<'a>>, ParseError> {
+        let (mut depth, mut at) = (0_usize, self.waiting.len());
+        loop {
+            if depth == 0
+                && let Some(after) = self.behind(signs, at)
+            {
+                let mut tokens = self.waiting.split_off(at);
+                self.waiting.truncate(after);
+                tokens.reverse();
+                self.made += tokens.len();
+                return Ok(unbraced(tokens));
+            }
+            let next = at.checked_sub(1).and_then(|before| self.waiting.get(before));
+            match next.map(|token| token.kind) {
+                Some(Kind::Open) => depth += 1,
+                Some(Kind::Close) if depth > 0 => depth -= 1,
+                None | Some(Kind::Close) => {
+                    let what = format!("its argument ends with `{}`, which is missing", signs.concat());
+                    return Err(lacks(of, &what, "add it behind the argument"));
+                }
+                _ => {}
+            }
+            at -= 1;
+        }
+    }
+
+    /// How many tokens wait behind these, where they are the next of the first `at` that wait, blanks aside.
+    fn behind(&self, signs: &[String], at: usize) -> Option<usize> {
+        let mut rest = at;
+        for sign in signs {
+            let is_blank = |token: &Token| matches!(token.kind, Kind::Space | Kind::Comment);
+            rest = self.waiting.get(..rest)?.iter().rposition(|token| !is_blank(token))?;
+            self.waiting.get(rest).filter(|token| token.text == sign)?;
+        }
+        Some(rest)
     }
 
     /// The next token that is no blank, left where it is.
@@ -121,6 +171,24 @@ impl<'a> Expander<'a> {
         self.made += tokens.len();
         Some(tokens)
     }
+}
+
+/// Tokens without the one pair of braces around all of them, as TeX takes an argument.
+fn unbraced(mut tokens: Vec<Token>) -> Vec<Token> {
+    let mut depth = 0_usize;
+    let closed = tokens.iter().position(|token| {
+        match token.kind {
+            Kind::Open => depth += 1,
+            Kind::Close => depth = depth.saturating_sub(1),
+            _ => {}
+        }
+        depth == 0
+    });
+    if tokens.len() > 1 && closed == Some(tokens.len() - 1) && tokens[0].kind == Kind::Open {
+        tokens.pop();
+        tokens.remove(0);
+    }
+    tokens
 }
 
 /// A macro lacks something.

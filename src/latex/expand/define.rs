@@ -35,6 +35,7 @@ enum Way {
     Operator,
     Document { unless_known: bool },
     Delimiter { extended: bool },
+    Unit,
 }
 
 fn way(name: &str) -> Option<Way> {
@@ -49,6 +50,7 @@ fn way(name: &str) -> Option<Way> {
         }
         "ProvideDocumentCommand" => Way::Document { unless_known: true },
         "DeclarePairedDelimiter" => Way::Delimiter { extended: false },
+        "DeclareSIUnit" => Way::Unit,
         "DeclarePairedDelimiterX" => Way::Delimiter { extended: true },
         _ => return None,
     })
@@ -63,7 +65,7 @@ pub fn is_definition(name: &str) -> bool {
 /// no command that defines.
 ///
 /// # Errors
-/// The definition is damaged, or of a kind that is not read (delimited parameters of `\def`); its place is in `text`.
+/// The definition is damaged, or of a kind that is not read (`#{` of `\def`); its place is in `text`.
 pub fn definition(text: &str) -> Option<(usize, Result<Defined, ParseError>)> {
     // Most definitions are short, and only what is looked at takes time.
     within(text, SHORT).filter(|(_, defined)| defined.is_ok()).or_else(|| within(text, LONGEST))
@@ -97,7 +99,10 @@ struct Reader<'a> {
 impl<'a> Reader<'a> {
     fn read(&mut self, way: Way) -> Result<Defined, Fault> {
         let starred = self.mark('*');
-        let name = self.name()?;
+        if way == Way::Unit {
+            self.between('[', ']');
+        }
+        let mut name = self.name()?;
         let simple = |parameters, body: &str| Macro { parameters, body: body.to_owned(), original: false };
         let (meaning, unless_known) = match way {
             Way::Command { unless_known } => {
@@ -119,6 +124,11 @@ impl<'a> Reader<'a> {
                 (simple(parameters, self.group()?), unless_known)
             }
             Way::Delimiter { extended } => (self.delimiter(extended)?, false),
+            Way::Unit => {
+                self.between('[', ']');
+                name = of_unit(&name);
+                (simple(Vec::new(), self.group()?), false)
+            }
         };
         Ok(Defined { name, meaning, unless_known })
     }
@@ -204,22 +214,37 @@ impl<'a> Reader<'a> {
         Ok(parameters)
     }
 
-    /// `#1#2` of `\def`.
+    /// `#1#2` of `\def`; with signs that set them off, `[#1]` or `#1.`.
     fn plain_parameters(&mut self) -> Result<Vec<Parameter>, Fault> {
         let mut parameters = Vec::new();
         loop {
+            let signs = self.signs();
+            if !signs.is_empty() {
+                let literal = parameters.pop().is_none();
+                parameters.push(if literal { Parameter::Literal(signs) } else { Parameter::Until(signs) });
+            }
             match self.peek() {
                 Some((Kind::Parameter, _)) => parameters.push(Parameter::Mandatory),
                 Some((Kind::Open, _)) => return Ok(parameters),
                 _ => {
                     return Err(Fault(
-                        r"arguments of \def that are set off by other signs are not read",
-                        r"write \newcommand{\name}[1]{.. #1 ..} instead",
+                        r"a definition that says not what the macro stands for",
+                        r"write \newcommand{\name}{..}",
                     ));
                 }
             }
             self.at += 1;
         }
+    }
+
+    /// The tokens before the next parameter or brace, blanks left out.
+    fn signs(&mut self) -> Vec<String> {
+        let mut signs = Vec::new();
+        while let Some((Kind::Char | Kind::Word | Kind::Escaped, text)) = self.peek() {
+            signs.push(text.to_owned());
+            self.at += 1;
+        }
+        signs
     }
 
     /// The macro after `\let\name=`.
@@ -252,6 +277,11 @@ impl<'a> Reader<'a> {
     fn error(&self, fault: &Fault, command: Span) -> ParseError {
         ParseError::new(fault.0, command).help(fault.1)
     }
+}
+
+/// The name that a unit of the notes is kept by: units are no macros elsewhere (`\bar`).
+pub(super) fn of_unit(name: &str) -> String {
+    format!("unit {name}")
 }
 
 /// Reads the specification of a document command: `s o m`, `O{2} d() m`.

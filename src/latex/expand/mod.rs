@@ -48,6 +48,10 @@ pub(super) enum Parameter {
     /// `o`, `O{..}`, `d()`, `D(){..}`, `g`, `G{..}`: between these delimiters, if the first stands there; otherwise the
     /// default, if there is one.
     Optional(char, char, Option<String>),
+    /// `#1.` of `\def`: all that stands before these tokens, which are taken, too.
+    Until(Vec<String>),
+    /// `[` before the first argument of `\def`: tokens that have to stand there, and are no argument.
+    Literal(Vec<String>),
 }
 
 /// A macro.
@@ -165,6 +169,11 @@ impl Macros {
         meanings.get(count.checked_sub(1)?).map(|(_, found)| &**found)
     }
 
+    /// What a unit of the notes stands for (`\DeclareSIUnit`), by its name without the backslash.
+    fn unit(&self, name: &str) -> Option<&str> {
+        self.find(&define::of_unit(name)).map(|found| found.body.as_str())
+    }
+
     /// Whether a package is loaded.
     fn has_package(&self, package: &str) -> bool {
         self.all.packages.contains(package)
@@ -263,7 +272,10 @@ impl<'a> Expander<'a> {
     fn apply(&mut self, found: &'a Macro, token: &Token<'a>) -> Result<(), ParseError> {
         let mut arguments = Vec::with_capacity(found.parameters.len());
         for parameter in &found.parameters {
-            arguments.push(self.argument(parameter, token)?);
+            match parameter {
+                Parameter::Literal(signs) => self.literal(signs, token)?,
+                _ => arguments.push(self.argument(parameter, token)?),
+            }
         }
         let of_package = token.from_package || found.original;
         self.put(&found.body, &arguments, token, of_package);

@@ -6,9 +6,9 @@
 //! `1.20(3)`, are left out: the digits before them say how sharply the value is known.
 
 use super::super::error::ParseError;
-use super::Expander;
 use super::argument::{Argument, lacks};
 use super::lexer::{Kind, Token};
+use super::{Expander, Macros};
 
 /// A unit: its names, its symbol, exponents of kg, m, s, A, K, mol, cd, the power of ten, and another factor.
 struct Unit(&'static str, &'static str, [i8; 7], i32, &'static str);
@@ -89,11 +89,18 @@ const PREFIXES: &[(&str, &str, i32)] = &[
     ("yocto", "y", -24),
 ];
 
+/// The most factors that a unit may bring, and their length in bytes: units of the notes may be made of each other.
+const MOST_FACTORS: usize = 64;
+const LONGEST_FACTORS: usize = 4000;
+
 /// The largest power that a unit may have.
 const LARGEST_POWER: i32 = 20;
 
+/// The most words that a unit may have, those of the notes' own units in it included.
+const MOST_WORDS: usize = 300;
+
 /// What a unit comes to.
-#[derive(Debug, Default)]
+#[derive(Clone, Debug, Default)]
 struct Size {
     exponents: [i32; 7],
     ten: i32,
@@ -101,15 +108,23 @@ struct Size {
 }
 
 impl Size {
-    fn multiply(&mut self, unit: &Unit, prefix: i32, power: i32) {
-        for (sum, exponent) in self.exponents.iter_mut().zip(unit.2) {
-            *sum += i32::from(exponent) * power;
+    fn of(unit: &Unit) -> Self {
+        let factors = Some(unit.4).filter(|factor| !factor.is_empty()).map(str::to_owned);
+        Size { exponents: unit.2.map(i32::from), ten: unit.3, factors: factors.into_iter().collect() }
+    }
+
+    /// Multiplies by a unit behind a prefix, to a power. `None` where the power or the definition is beyond reason.
+    fn multiply(&mut self, unit: &Size, prefix: i32, power: i32) -> Option<()> {
+        for (sum, exponent) in self.exponents.iter_mut().zip(unit.exponents) {
+            *sum = sum.checked_add(exponent.checked_mul(power)?)?;
         }
-        self.ten += (unit.3 + prefix) * power;
-        if !unit.4.is_empty() {
-            let raised = if power.abs() == 1 { unit.4.to_owned() } else { format!("({})^{{{}}}", unit.4, power.abs()) };
+        self.ten = self.ten.checked_add(unit.ten.checked_add(prefix)?.checked_mul(power)?)?;
+        for factor in &unit.factors {
+            let raised = if power.abs() == 1 { factor.clone() } else { format!("({factor})^{{{}}}", power.abs()) };
             self.factors.push(if power < 0 { format!("\\frac{{1}}{{{raised}}}") } else { raised });
         }
+        (self.factors.len() <= MOST_FACTORS && self.factors.iter().map(String::len).sum::<usize>() <= LONGEST_FACTORS)
+            .then_some(())
     }
 
     /// The base units in words: `kg m$^{2}$ s$^{-1}$`.
@@ -123,18 +138,18 @@ impl Size {
     }
 }
 
-/// Reads a unit: `\kilo\metre\per\second\squared`, `km.s^{-2}`, `km/s^2`.
-fn size(text: &str) -> Option<Size> {
+/// Reads a unit: `\kilo\metre\per\second\squared`, `km.s^{-2}`, `km/s^2`; the notes may have units of their own.
+fn size(text: &str, macros: &Macros, words_left: &mut usize) -> Option<Size> {
     let mut size = Size::default();
     let (mut per, mut all_per, mut prefix, mut before) = (false, false, 0, None::<i32>);
-    let mut last: Option<(&Unit, i32, i32)> = None;
-    let finish = |last: &mut Option<(&'static Unit, i32, i32)>, size: &mut Size| {
-        if let Some((unit, prefix, power)) = last.take() {
-            size.multiply(unit, prefix, power);
-        }
+    let mut last: Option<(Size, i32, i32)> = None;
+    let finish = |last: &mut Option<(Size, i32, i32)>, size: &mut Size| match last.take() {
+        Some((unit, prefix, power)) => size.multiply(&unit, prefix, power),
+        None => Some(()),
     };
     let mut rest = text.trim_start_matches([' ', '~', '.', '*', '{', '}']);
     while !rest.is_empty() {
+        *words_left = words_left.checked_sub(1)?;
         let (word, is_macro) = word(rest)?;
         rest = rest.get(usize::from(is_macro) + word.len()..)?;
         let sign = if per || all_per { -1 } else { 1 };
@@ -148,18 +163,22 @@ fn size(text: &str) -> Option<Size> {
                     _ => exponent(&mut rest)?,
                 };
                 let (_, _, own) = last.as_mut()?;
-                *own *= power;
+                *own = own.checked_mul(power)?;
             }
             "square" => before = Some(2),
             "cubic" => before = Some(3),
             "raiseto" => before = Some(exponent(&mut rest)?),
             _ => {
-                if let Some((_, _, ten)) = PREFIXES.iter().find(|p| is_macro && p.0.split(' ').any(|name| name == word))
-                {
+                let own = macros.unit(word).filter(|_| is_macro);
+                let is_prefix = |p: &&(&str, &str, i32)| is_macro && p.0.split(' ').any(|name| name == word);
+                if let (None, Some((_, _, ten))) = (own, PREFIXES.iter().find(is_prefix)) {
                     prefix += ten;
                 } else {
-                    finish(&mut last, &mut size);
-                    let (unit, own) = find(word, is_macro)?;
+                    finish(&mut last, &mut size)?;
+                    let (unit, own) = match own {
+                        Some(body) => (self::size(body, macros, words_left)?, 0),
+                        None => find(word, is_macro).map(|(unit, ten)| (Size::of(unit), ten))?,
+                    };
                     last = Some((unit, own + prefix, sign * before.take().unwrap_or(1)));
                     (per, prefix) = (false, 0);
                 }
@@ -167,7 +186,7 @@ fn size(text: &str) -> Option<Size> {
         }
         rest = rest.trim_start_matches([' ', '~', '.', '*', '{', '}', ',']);
     }
-    finish(&mut last, &mut size);
+    finish(&mut last, &mut size)?;
     (prefix == 0 && size.exponents.iter().all(|power| power.abs() <= LARGEST_POWER)).then_some(size)
 }
 
@@ -261,10 +280,15 @@ fn write(expander: &mut Expander, token: &Token, number: &str, size: &Size) {
     expander.write(&text, token);
 }
 
-fn sized(token: &Token, unit: &str) -> Result<Size, ParseError> {
-    let unknown =
-        || lacks(token, &format!("the unit `{}` is not known", unit.trim()), r"for example \metre\per\second");
-    size(unit).ok_or_else(unknown)
+fn sized(expander: &Expander, token: &Token, unit: &str) -> Result<Size, ParseError> {
+    let unknown = || {
+        let help = match unit.trim().strip_prefix('\\').and_then(|name| expander.macros.unit(name)) {
+            Some(own) => format!(r"\DeclareSIUnit says `{own}`: say it in units that are known, as in \km\per\hour"),
+            None => r"for example \metre\per\second".to_owned(),
+        };
+        lacks(token, &format!("the unit `{}` is not known", unit.trim()), &help)
+    };
+    size(unit, expander.macros, &mut { MOST_WORDS }).ok_or_else(unknown)
 }
 
 /// Whether two groups in braces follow, the first perhaps behind options: `\qty{3}{\metre}`.
@@ -290,7 +314,7 @@ pub(super) fn is_quantity(expander: &Expander) -> bool {
 pub(super) fn quantity<'a>(expander: &mut Expander<'a>, token: &Token<'a>) -> Result<(), ParseError> {
     let found = arguments(expander, token, 2)?;
     let [number, unit] = found.as_slice() else { return Ok(()) };
-    let size = sized(token, unit)?;
+    let size = sized(expander, token, unit)?;
     write(expander, token, number, &size);
     Ok(())
 }
@@ -305,7 +329,7 @@ pub(super) fn number<'a>(expander: &mut Expander<'a>, token: &Token<'a>) -> Resu
 /// `\si{\metre}`, `\unit{\metre}`: the unit alone is one of it.
 pub(super) fn unit<'a>(expander: &mut Expander<'a>, token: &Token<'a>) -> Result<(), ParseError> {
     let found = arguments(expander, token, 1)?;
-    let size = sized(token, found.first().map_or("", String::as_str))?;
+    let size = sized(expander, token, found.first().map_or("", String::as_str))?;
     if size.ten == 0 && size.factors.is_empty() {
         expander.write(&format!("\\,\\text{{{}}}", size.words()), token);
     } else {

@@ -58,6 +58,45 @@ fn definitions_of_all_kinds_are_read() {
 }
 
 #[test]
+fn arguments_are_set_off_by_signs_as_tex_does() {
+    let definitions =
+        r"\def\half#1.{\frac{#1}{2}} \def\vect[#1]{\mathbf{#1}} \def\pair#1 and #2\end{(#1, #2)} \def\dot.{x}";
+    let cases = [
+        (r"a \half b. = \half{a b}.", r"a \frac{b}{2} = \frac{a b}{2}"),
+        (r"\vect[r] + \vect [{a]b}]", r"\mathbf{r} + \mathbf{a]b}"),
+        (r"\pair{a}{b} and c \end", r"({a}{b} , c )"),
+        (r"\half .", r"\frac{ }{2}"),
+        (r"\half \vect[a].", r"\frac{ \mathbf{a}}{2}"),
+    ];
+    for (formula, wanted) in cases {
+        let blank = |text: &str| text.replace(' ', "");
+        assert_eq!(blank(&expanded(definitions, formula)), blank(wanted), "{formula}");
+    }
+    let all = macros(&[], definitions);
+    let error = |formula: &str| all.expand(formula).unwrap_err().to_string();
+    assert!(error(r"{\half b}.").contains("its argument ends with `.`, which is missing"));
+    assert!(error(r"\vect r").contains("`[` has to follow it"));
+}
+
+#[test]
+fn units_of_the_notes_are_what_they_are_made_of() {
+    let own = r"\DeclareSIUnit\kmh{\km\per\hour} \DeclareSIUnit[per-mode=symbol]{\bar}{\kilo\pascal} \DeclareSIUnit\year{yr}
+        \DeclareSIUnit\x{\x} \DeclareSIUnit\y{\z\z\z\z\z\z\z\z}\DeclareSIUnit\z{\w\w\w\w\w\w\w\w}\DeclareSIUnit\w{\v\v\v\v\v\v\v\v}";
+    let all = macros(&["siunitx"], own);
+    let expand = |formula: &str| all.expand(formula).map(|e| e.text);
+    assert_eq!(expand(r"\SI{72}{\kmh}").unwrap(), r"72\times 10^{3}\times \frac{1}{3600}\,\text{m s$^{-1}$}");
+    assert_eq!(
+        expand(r"\SI{2}{\per\kmh\squared}").unwrap(),
+        r"2\times 10^{-6}\times \frac{1}{(\frac{1}{3600})^{2}}\,\text{m$^{-2}$ s$^{2}$}"
+    );
+    assert_eq!(expand(r"\SI{1}{\mega\bar}").unwrap(), r"1\times 10^{9}\,\text{kg m$^{-1}$ s$^{-2}$}");
+    assert_eq!(expand(r"\bar{x}").unwrap(), r"\bar{x}", "a unit is no macro elsewhere");
+    let unknown = expand(r"\SI{1}{\year}").unwrap_err().to_string();
+    assert!(unknown.contains("is not known") && unknown.contains(r"\DeclareSIUnit says `yr`"), "{unknown}");
+    assert!(expand(r"\SI{1}{\x}").is_err() && expand(r"\SI{1}{\y}").is_err(), "units without end");
+}
+
+#[test]
 fn a_formula_without_macros_is_passed_on() {
     let formula = r"\frac{a}{b} % \x
         = \alpha";
@@ -112,7 +151,7 @@ fn definitions_that_cannot_be_read_say_so() {
         r"\newcommand{\x}",
         r"\newcommand{\x}[x]{y}",
         r"\newcommand{\x}{y",
-        r"\def\x#1.{y}",
+        r"\def\x#1}",
         r"\NewDocumentCommand\x{q}{y}",
     ];
     let errors: Vec<_> = texts.iter().map(|text| definition(text).unwrap().1.unwrap_err().to_string()).collect();

@@ -59,10 +59,9 @@ pub(super) const PATTERNS: &[(&str, &str)] = &[
     ("a definition that is not closed", "定義が閉じていません"),
     ("a definition that says not what the macro stands for", "マクロの内容が定義されていません"),
     ("a number of arguments from 0 to 9 is expected", "引数の個数は 0 から 9 でなければなりません"),
-    (
-        "arguments of \\def that are set off by other signs are not read",
-        "他の文字で区切られた \\def の引数は読めません",
-    ),
+    ("`{a}` has to follow it", "直後に `{a}` が必要です"),
+    ("its argument ends with `{a}`, which is missing", "引数の終わりを示す `{a}` がありません"),
+    ("add it behind the argument", "引数の後に書いてください"),
     ("arguments of a kind that is not read", "この種の引数は読めません"),
     ("read are {a}", "読めるのは {a} です"),
     ("a macro takes at most nine arguments", "マクロの引数は 9 個までです"),
