@@ -94,7 +94,9 @@ fn said(verified: &[verify::Verified]) -> Vec<String> {
     let own = equations.flat_map(|e| [Some(&e.section), e.because.as_ref()]).flatten();
     let toml = verified.iter().flat_map(|v| &v.problems).filter(|p| p.code == "document::toml");
     let own = own.chain(reports.flat_map(|r| [&r.title, &r.path])).chain(toml.filter_map(|p| p.label.as_ref()));
-    let mut said: Vec<String> = own.cloned().filter(|text| !text.is_empty()).collect();
+    // What is quoted within them is code on a page.
+    let pieces = own.flat_map(|text| std::iter::once(text.as_str()).chain(text.split('`')));
+    let mut said: Vec<String> = pieces.map(str::to_owned).filter(|text| text.trim().len() > 1).collect();
     said.sort_by_key(|text| std::cmp::Reverse(text.len()));
     said.dedup();
     said

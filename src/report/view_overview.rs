@@ -81,33 +81,38 @@ pub(super) fn overview(
     if sections.len() < 2 {
         return None;
     }
-    let section_of: Vec<usize> =
+    let of: Vec<usize> =
         sections.iter().enumerate().flat_map(|(k, s)| std::iter::repeat_n(k, s.equations.len())).collect();
-    let fails = |equation: usize| document.equations[equation].verdict == Verdict::Fails;
+    let fails: Vec<bool> = document.equations.iter().map(|e| e.verdict == Verdict::Fails).collect();
     let mut counts = vec![[0; 3]; sections.len()];
-    for (equation, section) in section_of.iter().enumerate() {
-        let endangered = !graph.threats[equation].is_empty();
-        let count = &mut counts[*section];
-        *count = [count[0] + 1, count[1] + usize::from(fails(equation)), count[2] + usize::from(endangered)];
+    for (equation, section) in of.iter().enumerate() {
+        let is = [true, fails[equation], !graph.threats[equation].is_empty()];
+        counts[*section].iter_mut().zip(is).for_each(|(count, is)| *count += usize::from(is));
     }
-    let mut arcs = BTreeMap::new();
-    for (equation, to) in section_of.iter().enumerate() {
+    let drawn = Drawn { sections, counts, arcs: arcs(graph, &of, &fails), w };
+    Some(Overview { svg_html: drawn.svg(), rows: (0..sections.len()).map(|k| drawn.row(k)).collect() })
+}
+
+/// How many equations of each section rest on which others; `of` tells the section of each equation.
+fn arcs(graph: &Graph, of: &[usize], fails: &[bool]) -> BTreeMap<(usize, usize), Arc> {
+    let mut arcs: BTreeMap<(usize, usize), Arc> = BTreeMap::new();
+    for (equation, to) in of.iter().enumerate() {
         // An equation counts once for each section, however many premises it has there.
         let mut own: BTreeMap<usize, Arc> = BTreeMap::new();
         for premise in &graph.premises[equation] {
-            let from = section_of[premise.equation];
-            let spreads = fails(premise.equation) || !graph.threats[premise.equation].is_empty();
-            let arc = own.entry(from).or_insert(Arc { equations: 1, danger: false, found: true });
+            let spreads = fails[premise.equation] || !graph.threats[premise.equation].is_empty();
+            let arc = own.entry(of[premise.equation]).or_insert(Arc { equations: 1, danger: false, found: true });
             arc.danger |= spreads && !graph.threats[equation].is_empty();
             arc.found &= premise.found;
         }
         for (from, one) in own.into_iter().filter(|(from, _)| from != to) {
             let arc = arcs.entry((from, *to)).or_insert(Arc { found: true, ..Arc::default() });
-            *arc = Arc { equations: arc.equations + 1, danger: arc.danger | one.danger, found: arc.found & one.found };
+            arc.equations += 1;
+            arc.danger |= one.danger;
+            arc.found &= one.found;
         }
     }
-    let drawn = Drawn { sections, counts, arcs, w };
-    Some(Overview { svg_html: drawn.svg(), rows: (0..sections.len()).map(|k| drawn.row(k)).collect() })
+    arcs
 }
 
 impl Drawn<'_> {

@@ -143,10 +143,10 @@ await test("filtering by keyboard alone", "ja/gyroscope.html", async (page) => {
 await test("the map shows every link, and its nodes lead to the equations", "en/gyroscope-map.html", async (page) => {
   const labels = new Set(gyroscope.equations.map((e) => e.label));
   const edges = gyroscope.equations.flatMap((e) => e.given.filter((g) => labels.has(g) && g !== e.label));
-  equal(await page.locator(".edge.tip").count(), edges.length, "arrows");
+  equal(await page.locator(".derivation:not(.whole) .edge.tip").count(), edges.length, "arrows");
   const linked = new Set(gyroscope.equations.flatMap((e) => [e.label, ...e.given].filter(() => e.given.some((g) => labels.has(g)))));
   equal(await page.locator(".node:not(.foreign)").count(), [...linked].filter((l) => labels.has(l)).length, "nodes");
-  equal(await page.locator(".figure tbody tr").count(), await page.locator(".node:not(.foreign)").count(), "rows of the tables");
+  equal(await page.locator(".figure[id] tbody tr").count(), await page.locator(".node:not(.foreign)").count(), "rows of the tables");
   const failing = await page.locator(".node.fails:not(.foreign)").count();
   assert(failing > 5 && await page.locator(".node.endangered").count() > 5, "failing and endangered ones");
   const tight = await page.locator(".node").evaluateAll((all) => all.filter((node) => {
@@ -161,6 +161,34 @@ await test("the map shows every link, and its nodes lead to the equations", "en/
   await page.keyboard.press("Enter");
   await page.waitForURL(/gyroscope\.html#/);
   assert(await page.locator(".equation:target").evaluate((e) => e.classList.contains("fails")), "leads to a failing equation");
+});
+
+await test("the overview has each section, what rests on it, and leads to its map", "en/gyroscope-map.html", async (page) => {
+  const sections = [...new Set(gyroscope.equations.map((e) => e.section))];
+  equal(await page.locator(".whole .title").allTextContents(), sections, "rows");
+  const section = new Map(gyroscope.equations.map((e) => [e.label, e.section]));
+  const pairs = gyroscope.equations.flatMap((e) => e.given.filter((g) => section.has(g) && section.get(g) !== e.section)
+    .map((g) => `${section.get(g)} > ${e.section}`));
+  equal(await page.locator(".whole .edge.tip").count(), new Set(pairs).size, "arcs");
+  const failing = gyroscope.equations.filter((e) => e.section === sections[0] && e.verdict === "fails").length;
+  equal(await page.locator(".whole .row").first().locator(".failing").textContent(), `✗ ${failing}`, "failing ones");
+  const out = await page.locator(".whole").evaluate((svg) => [...svg.querySelectorAll("text, path")].filter((e) => {
+    const [box, own] = [svg.getBoundingClientRect(), e.getBoundingClientRect()];
+    return own.left < box.left || own.right > box.right;
+  }).length);
+  equal(out, 0, "parts that stick out");
+  const row = page.locator(".whole .row").nth(5);
+  await row.focus();
+  assert((await row.getAttribute("aria-label")).startsWith(`${sections[5]}: `), "what a row says");
+  await page.keyboard.press("Enter");
+  await page.waitForURL(/#/);
+  equal(await page.locator(".figure:target h2").textContent(), sections[5], "leads to the section's map");
+});
+
+await test("formulas have their source as alternative text", "ja/gyroscope.html", async (page) => {
+  const bare = await page.locator("math").evaluateAll((all) => all.filter((math) => !math.getAttribute("alttext")).length);
+  equal(bare, 0, "formulas without");
+  equal(await page.locator("math[alttext*=c0ffee]").count(), 0, "marks in the sources");
 });
 
 await test("the map of 566 equations stays legible", "en/celestial-mechanics-3-map.html", async (page) => {
@@ -215,7 +243,7 @@ await test("the report prints without its controls", "en/gyroscope.html", async 
 // Every kind of page
 
 const kinds = ["report.html", "gyroscope.html", "gyroscope-errata.html", "gyroscope-map.html", "unannotated.html",
-  "unannotated-errata.html", "unannotated-map.html"];
+  "unannotated-errata.html", "unannotated-map.html", "speed.html", "stability.html"];
 for (const language of ["en", "ja"]) {
   for (const scheme of ["light", "dark"]) {
     for (const kind of kinds) {
