@@ -14,7 +14,7 @@ use std::fmt::Write;
 /// The height of a row, in pixels.
 const ROW: f64 = 30.0;
 /// How far the arc between neighbours reaches out, and what the square root of the distance in rows adds to it.
-const REACH: (f64, f64) = (14.0, 24.0);
+const REACH: (f64, f64) = (8.0, 34.0);
 /// What is left free beside the arcs, for their numbers.
 const MARGIN: f64 = 30.0;
 /// Where the columns of a row stand, from the line at which the arcs end: equations, failing, endangered, title.

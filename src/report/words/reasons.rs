@@ -85,15 +85,23 @@ fn said<'t>(name: &str, text: &'t str, depth: usize) -> Cow<'t, str> {
         }
         "things" => each(" and ", "と"),
         "choices" => each(" or ", " または "),
-        "places" | "enclosure" => text
-            .replace(" lies in [", " ∈ [")
-            .replace("lies in [", "∈ [")
-            .replace(" is ", " = ")
-            .trim_start_matches("is ")
-            .replace(" or ", " または ")
-            .into(),
+        "places" | "enclosure" => numbers(text).into(),
         _ => text.into(),
     }
+}
+
+/// What numbers are, or what they lie in, in signs.
+fn numbers(text: &str) -> String {
+    let signs = [
+        (" lies in [", " ∈ ["),
+        ("lies in [", "∈ ["),
+        (" is ", " = "),
+        (" or ", " または "),
+        (" component (inertial)", " 成分 (慣性系)"),
+        (" component", " 成分"),
+    ];
+    let text = text.strip_prefix("is ").map_or(text.to_owned(), |value| format!("= {value}"));
+    signs.iter().fold(text, |text, (english, sign)| text.replace(english, sign))
 }
 
 /// A sentence followed by the LaTeX that it is about: `undeclared symbol k, at `k_0``.
@@ -134,7 +142,8 @@ fn places<'t>(pattern: &'static str, text: &'t str) -> Option<Vec<(&'static str,
         let (name, literal) = piece.split_once('}')?;
         let end = if literal.is_empty() { rest.len() } else { rest.find(literal)? };
         // What is quoted ends where its quotation does.
-        if before.ends_with('`') && rest[..end].contains('`') {
+        let quoted = ['`', '$'].into_iter().find(|q| before.ends_with(*q) && literal.starts_with(*q));
+        if quoted.is_some_and(|quote| rest[..end].contains(quote)) {
             return None;
         }
         found.push((name, &rest[..end]));

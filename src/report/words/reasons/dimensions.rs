@@ -31,8 +31,8 @@ pub(super) const PATTERNS: &[(&str, &str)] = &[
     ("within {a} the dimensions {b} and {c} meet", "{a} の中で、次元 {b} と {c} の量が足されているか比べられています"),
     ("the left side", "左辺"),
     ("the right side", "右辺"),
-    ("the term {a}", "項 {a} "),
-    ("the terms {a}", "項 {a} "),
+    ("the term ${a}$", "項 ${a}$ "),
+    ("the terms ${a}", "項 ${a} "),
     // Units
     ("unknown unit {a}", "単位 {a} は未知です"),
     ("an unexpected sign", "ここにこの文字は置けません"),

@@ -32,6 +32,7 @@ pub(super) const PATTERNS: &[(&str, &str)] = &[
     ("this range is the wrong way round", "範囲の上下が逆です"),
     ("the first number is the larger", "最初の数の方が大きくなっています"),
     ("the annotation is not valid TOML", "注釈が TOML として正しくありません"),
+    ("the annotation is not valid TOML: {a}", "注釈が TOML として正しくありません: {a}"),
     (
         "write LaTeX in single quotes, where a backslash is a backslash: {a}",
         "LaTeX は、バックスラッシュがそのまま読まれる一重引用符で書いてください: {a}",

@@ -30,7 +30,7 @@ pub(super) const PATTERNS: &[(&str, &str)] = &[
     ),
     (
         "the reduced equation for u = cos theta, with quadratures for phi and psi, by Taylor series",
-        "u = cos theta についての一変数の方程式と phi、psi の求積 (テイラー級数法)",
+        "u = cos(theta) についての一変数の方程式と phi、psi の求積 (テイラー級数法)",
     ),
     ("the full equations in Euler angles, by Taylor series", "オイラー角による運動方程式 (テイラー級数法)"),
     (
@@ -38,6 +38,18 @@ pub(super) const PATTERNS: &[(&str, &str)] = &[
         "軸と角運動量についての運動方程式 (テイラー級数法)",
     ),
     ("the full equations with a unit quaternion, by Taylor series", "単位四元数による運動方程式 (テイラー級数法)"),
+    (
+        "the full equations in Euler angles, by Dormand and Prince's method of order 8",
+        "オイラー角による運動方程式 (Dormand–Prince の 8 次法)",
+    ),
+    (
+        "the full equations in Euler angles, by Gauss and Legendre's method: symmetric",
+        "オイラー角による運動方程式 (Gauss–Legendre 法、対称)",
+    ),
+    (
+        "the full equations in Euler angles, by the classical method of order 4, for comparison",
+        "オイラー角による運動方程式 (比較のための古典的な 4 次法)",
+    ),
     ("steady precession, the slow root", "定常歳差、遅い根"),
     ("steady precession, the fast root", "定常歳差、速い根"),
     ("small nutation, first order in its amplitude", "微小章動 (振幅の一次)"),

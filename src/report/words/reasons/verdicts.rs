@@ -72,8 +72,8 @@ pub(super) const PATTERNS: &[(&str, &str)] = &[
     ("a condition is a single relation", "条件は一つの関係式でなければなりません"),
     ("a condition relates two scalars", "条件は二つのスカラーの関係でなければなりません"),
     (
-        "there is no relation to evaluate; if that is right, say {a}",
-        "評価する関係式がありません。それで正しければ {a} と書いてください",
+        "there is no relation to evaluate; if that is right, say kind = \"statement\" and because = \"...\"",
+        "評価する関係式がありません。それで正しければ kind = \"statement\" と because = \"...\" を書いてください",
     ),
     ("relations of this kind are not evaluated yet", "この種の関係はまだ評価できません"),
     ("no relation stands in this part: nothing is said about it", "この部分には関係記号がなく、何も主張していません"),
@@ -207,6 +207,7 @@ pub(super) const PATTERNS: &[(&str, &str)] = &[
     // Components
     ("{a} component (inertial)", "{a} 成分 (慣性系)"),
     ("{a} component", "{a} 成分"),
+    ("coefficient of {a}", "{a} の係数"),
     ("scalar part", "スカラー部"),
     ("real part", "実部"),
     ("imaginary part", "虚部"),
