@@ -133,7 +133,7 @@ fn what_is_excluded_is_neither_verified_nor_hooked_and_a_sidecar_is_that_of_its_
 
 #[test]
 fn who_gets_the_bundled_notes_without_asking_is_told() {
-    let folder = folder("bundled", &[]);
+    let folder = folder("unasked", &[]);
     let told = |arguments: &[&str]| err(&kenzan(&folder, arguments)).contains("these are the bundled notes");
     assert!(told(&["verify", "--only", "56"]));
     assert!(!told(&["verify", "--only", "56", "--bundled"]));

@@ -22,13 +22,19 @@ pub struct Fix {
 pub fn fixes(document: &Document, equation: &Equation, judgement: &Judgement, suggestions: &[Suggestion]) -> Vec<Fix> {
     let mut fixes = Vec::new();
     let mut offer = |title: String, latex: &str, preferred: bool| {
-        fixes.extend(formula(equation).map(|span| Fix { title, span, new: latex.trim().to_owned(), preferred }));
+        fixes.extend(formula(equation).map(|span| {
+            let new = aligned(document.source.get(span.clone()).unwrap_or_default(), latex.trim());
+            Fix { title, span, new, preferred }
+        }));
     };
     if let Some(correction) = &judgement.correction
         && judgement.is_mended()
         && judgement.verdict != Verdict::Holds
     {
-        offer(format!("Print the correction of ({})", judgement.label), &correction.latex, true);
+        // As the author wrote it, with the notes' own macros.
+        let written = equation.annotation.as_ref().and_then(|a| a.correction.as_ref());
+        let latex = written.map_or(&correction.latex, |written| &written.value);
+        offer(format!("Print the correction of ({})", judgement.label), latex, true);
     }
     if let Some(suspect) = judgement.suspect.as_ref().filter(|s| s.label == judgement.label) {
         offer(format!("({}): {}", judgement.label, suspect.edit), &suspect.latex, true);
@@ -48,6 +54,25 @@ fn formula(equation: &Equation) -> Option<Span> {
     let within = span.start - equation.span.start..span.end - equation.span.start;
     let plain = equation.latex.get(within.clone()) == equation.masked.get(within) && equation.prefix.is_empty();
     (plain && !span.is_empty()).then_some(span)
+}
+
+/// A formula with the mark of alignment, `&=`, that the printed one has before its sign of equality.
+fn aligned(printed: &str, new: &str) -> String {
+    let mut marks = printed.match_indices('&');
+    let (Some((mark, _)), None) = (marks.next(), marks.next()) else { return new.to_owned() };
+    if !printed[mark + 1..].trim_start().starts_with('=') || printed[..mark].ends_with('\\') || new.contains('&') {
+        return new.to_owned();
+    }
+    let mut depth = 0_usize;
+    let sign = new.char_indices().find(|(_, c)| {
+        match c {
+            '{' => depth += 1,
+            '}' => depth = depth.saturating_sub(1),
+            _ => {}
+        }
+        *c == '=' && depth == 0
+    });
+    sign.map_or_else(|| new.to_owned(), |(at, _)| format!("{}&{}", &new[..at], &new[at..]))
 }
 
 /// Says that an equation is known to fail.
@@ -114,6 +139,17 @@ mod tests {
         );
         let mended = fixed("n.md", &notes, "Print the correction of (1)");
         assert!(mended.contains("$$ (a+b)^2 = a^2 + 2 a b + b^2 \\tag{1} $$"), "{mended}");
+    }
+
+    #[test]
+    fn a_correction_keeps_macros_and_alignment() {
+        let notes = "\\newcommand{\\twice}[1]{2 #1}\n\\begin{document}\n%! [symbols]\n%! 'a, b' = { range = [1, 2] }\n\
+            \\begin{align}\n  a + a &= \\twice{b} \\label{x}\n\\end{align}\n%! correction = 'a + a = \\twice{a}'\n\\end{document}\n";
+        let mended = fixed("n.tex", notes, "Print the correction of (x)");
+        assert!(mended.contains("  a + a &= \\twice{a} \\label{x}\n"), "{mended}");
+        assert_eq!(aligned("a &= b", "x_{a=b} = c"), "x_{a=b} &= c");
+        assert_eq!(aligned("a &< b", "c = d"), "c = d");
+        assert_eq!(aligned("a = b", "c = d"), "c = d");
     }
 
     #[test]

@@ -251,7 +251,8 @@ impl Elaborator<'_> {
         let end = to.map(|to| self.value(to)).transpose()?;
         let symbols = end.map(|end| self.world.graph.symbols(&end.value.components())).unwrap_or_default();
         if !symbols.iter().any(|s| self.world.graph.info(*s).of_t) {
-            return Err(Error::unsupported("only integrals along the motion are evaluated yet", span));
+            let help = "until then say what it comes to under `where` of the equations that rest on it, and here expect = \"undecided\"";
+            return Err(Error::unsupported("only integrals along the motion are evaluated yet", span).with_help(help));
         }
         let node = |kind| Box::new(Node::new(kind, span.clone()));
         let (base, zero) = (node(Kind::Symbol("t".into())), node(Kind::Number("0".into())));

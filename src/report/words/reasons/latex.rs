@@ -61,6 +61,14 @@ pub(super) const PATTERNS: &[(&str, &str)] = &[
     ("a number of arguments from 0 to 9 is expected", "引数の個数は 0 から 9 でなければなりません"),
     ("`{a}` has to follow it", "直後に `{a}` が必要です"),
     ("its argument ends with `{a}`, which is missing", "引数の終わりを示す `{a}` がありません"),
+    (
+        "\\DeclareSIUnit says `{a}`: say it in units that are known, as in \\km\\per\\hour",
+        "\\DeclareSIUnit の定義は `{a}` です。\\km\\per\\hour のように既知の単位で定義してください",
+    ),
+    (
+        "files are not read within a display: write its text here, or the whole display there",
+        "数式の中ではファイルを読み込みません。内容をここに書くか、数式全体をそのファイルに移してください",
+    ),
     ("add it behind the argument", "引数の後に書いてください"),
     ("arguments of a kind that is not read", "この種の引数は読めません"),
     ("read are {a}", "読めるのは {a} です"),
