@@ -1,4 +1,4 @@
-//! Approximations: the residual, relative to the terms it is made of, must fall with the small parameter at the order
+//! Approximations: the residual, relative to the larger side, must fall with the small parameter at the order
 //! that is claimed. Limits: the residual itself must fall. The order is measured over halvings of the parameter, in numbers precise enough that rounding
 //! plays no part.
 
@@ -10,7 +10,7 @@ use crate::number::{Df64, Number, Real};
 use super::claim::Claim;
 use super::options::Options;
 use super::random::{Decimal, Random};
-use super::sampling::{Sampler, no_state_text};
+use super::sampling::{PairValue, Sampler, no_state_text};
 use super::system::State;
 use super::verdict::{LinkJudgement, Order, Strength, Verdict};
 
@@ -28,7 +28,7 @@ type Course = Vec<(f64, f64)>;
 /// What a residual is compared with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Measure {
-    /// The terms that it is made of: for approximations.
+    /// The larger side: for approximations.
     Relative,
     /// Nothing: for limits, which may be zero.
     Absolute,
@@ -160,7 +160,7 @@ fn residual<N: Real<Context = ()>>(
         return None;
     }
     let scale = match measure {
-        Measure::Relative => pairs.iter().map(|p| p.scale_log2).fold(f64::NEG_INFINITY, f64::max),
+        Measure::Relative => pairs.iter().map(scale).fold(f64::NEG_INFINITY, f64::max),
         Measure::Absolute => 0.0,
     };
     let size = pairs
@@ -169,6 +169,15 @@ fn residual<N: Real<Context = ()>>(
         .map(|p| p.residual.value().log2_abs())
         .fold(f64::NEG_INFINITY, f64::max);
     Some(if size == f64::NEG_INFINITY { 0.0 } else { (size - scale).exp2() })
+}
+
+/// log₂ of the larger side; where a side is zero, of the terms of the other. What the premises make of a small side, as
+/// of T = (γ - 1) m c², may be terms much larger than it, beside which a wrong term of the next order would be nothing.
+fn scale<N: Real>(pair: &PairValue<N>) -> f64 {
+    match (pair.lhs.value().log2_abs(), pair.rhs.value().log2_abs()) {
+        (lhs, rhs) if lhs == f64::NEG_INFINITY || rhs == f64::NEG_INFINITY => pair.scale_log2,
+        (lhs, rhs) => lhs.max(rhs),
+    }
 }
 
 /// The slope over the last four halvings that are above rounding, by least squares in logarithms.
