@@ -202,7 +202,7 @@ pub(super) fn judge_statement(source: &Source, statement: &Statement, options: &
             if link.verdict == Verdict::Definition {
                 known.push(Clause { rel: Rel::Eq, ..clause.clone() });
                 links.push(link);
-            } else if equality && kind(book, index) == "law" && link.verdict != Verdict::Holds {
+            } else if equality && kind(book, index) == "law" && link.verdict != Verdict::Holds && !says_nothing(clause) {
                 links.push(law::taken(link, source, clause, &known, options));
                 known.push(clause.clone());
             } else {
@@ -336,6 +336,10 @@ pub(super) fn judge_link(
 
 fn link_verdict(source: &Source, clause: &Clause, scope: &Scope, known: &[Clause], options: &Options) -> LinkJudgement {
     let mut judgement = LinkJudgement::unjudged(clause.latex());
+    if says_nothing(clause) {
+        judgement.reason = Some(SAYS_NOTHING.into());
+        return judgement;
+    }
     let entry = &source.book.entries[source.index];
     let printed = value::is_value(source.book, source.index).then(|| value::printed(entry, clause)).flatten();
     let small = entry.annotation().is_some_and(|a| a.small.is_some());
@@ -369,6 +373,15 @@ fn link_verdict(source: &Source, clause: &Clause, scope: &Scope, known: &[Clause
             None => evaluate(judgement, claim, clause.rel, source, options),
         },
     }
+}
+
+/// Why a link is not judged whose sides are printed alike.
+const SAYS_NOTHING: &str = "both sides are printed alike, so that it says nothing: has one of them lost something?";
+
+/// Whether the sides of a link are printed alike.
+pub fn says_nothing(clause: &Clause) -> bool {
+    let equality = matches!(clause.rel, Rel::Eq | Rel::Equiv);
+    equality && matches!(&clause.rhs, Side::Node(rhs) if crate::latex::to_latex(rhs) == crate::latex::to_latex(&clause.lhs))
 }
 
 /// Evaluates a claim that is made by a link with the relation `printed`.

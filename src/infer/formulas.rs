@@ -1,5 +1,5 @@
-//! What a quantity is as a function: where a derivative of it is taken by something else than the time, the notes have
-//! said before what it is, `\phi = Q / 4 \pi \varepsilon_0 r`.
+//! What a quantity is as a function: where a derivative of it is taken by something else than the time, or where it is
+//! integrated, the notes have said before what it is, `\phi = Q / 4 \pi \varepsilon_0 r`.
 
 use std::sync::Arc;
 
@@ -35,7 +35,8 @@ pub fn functions(book: &Book, document: &Document) -> Vec<(usize, Vec<SymbolDecl
         let mut evidence = Evidence::default();
         evidence.look(tree);
         let at = entry.equation.span.start;
-        let declared = evidence.derived.iter().filter_map(|(name, variables)| {
+        let dependent = evidence.derived.iter().chain(&evidence.integrated);
+        let declared = dependent.filter_map(|(name, variables)| {
             let mut before = known.iter().rev().filter(|(place, _)| *place < at);
             let formula = before.find_map(|(_, tree)| formula(tree, name, variables.iter()))?;
             Some(declaration(name, variables.iter(), &formula, at))

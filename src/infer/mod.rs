@@ -15,6 +15,8 @@ pub mod evidence;
 mod fingerprint;
 mod formulas;
 mod judge;
+mod letters;
+mod near;
 mod premises;
 mod references;
 mod reshape;
