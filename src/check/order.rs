@@ -195,3 +195,34 @@ fn slope(course: &[(f64, f64)]) -> f64 {
     let variance: f64 = points.iter().map(|p| (p.0 - mx) * (p.0 - mx)).sum();
     covariance / variance
 }
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use crate::check::verdict::Verdict;
+    use crate::document;
+    use crate::verify::{Request, verify};
+
+    #[test]
+    fn the_residual_is_measured_by_the_sides_and_not_by_what_premises_make_of_them() {
+        let notes = r"<!-- kenzan
+[symbols]
+'m, c, v, T' = { range = [0.5, 2.0] }
+-->
+$$ T \approx \frac{1}{2} m v^2 + \frac{3}{8} \frac{m v^4}{c^2} \tag{1} $$
+<!-- kenzan
+where = ['T = m c^2 / \sqrt{1 - v^2/c^2} - m c^2']
+small = 'v'
+order = 4
+range = { 'v' = [0.05, 0.25] }
+-->
+";
+        let verdict = |notes: &str| {
+            let report = verify(document::parse(Path::new("notes.md"), notes), &Request::default(), &|| ()).report;
+            report.equations[0].verdict
+        };
+        assert_eq!(verdict(notes), Verdict::Asymptotic);
+        assert_eq!(verdict(&notes.replace(r"\frac{m v^4}{c^2}", r"\frac{m v^4}{2 c^2}")), Verdict::Fails);
+    }
+}

@@ -1,6 +1,6 @@
 //! What an equation may follow from: the displays before it, and the inline formulas around it.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 use crate::check::{Book, Formula, Version};
 use crate::document::{Document, Span};
@@ -25,6 +25,8 @@ pub struct Candidate {
     pub moves: bool,
     /// The symbols of which it has rates.
     pub rates: BTreeSet<String>,
+    /// Its statements: the symbols and the number of equations of each.
+    pub parts: Vec<(BTreeSet<String>, usize)>,
 }
 
 /// Where a candidate comes from.
@@ -109,8 +111,8 @@ fn candidate(source: Origin, span: Span, scope: &Scope, clauses: &[Clause]) -> O
     if matches!(source, Origin::Inline(_)) && clauses.iter().any(is_condition) {
         return None;
     }
-    let Spoken { symbols, equations, moves, rates } = Spoken::of(scope, clauses)?;
-    Some(Candidate { source, span, symbols, equations, moves, rates })
+    let Spoken { symbols, equations, moves, rates, parts } = Spoken::of(scope, clauses)?;
+    Some(Candidate { source, span, symbols, equations, moves, rates, parts })
 }
 
 /// Whether an inline formula says for which value something is said, `t = 0`, `x = l`, and not what is so.
@@ -130,6 +132,8 @@ pub struct Spoken {
     pub moves: bool,
     /// The symbols of which they have rates.
     pub rates: BTreeSet<String>,
+    /// The symbols and the number of scalar equations of each clause.
+    pub parts: Vec<(BTreeSet<String>, usize)>,
 }
 
 impl Spoken {
@@ -138,7 +142,9 @@ impl Spoken {
         let mut world = World::new();
         let mut all = Vec::new();
         let mut equations = 0;
+        let mut clausewise: Vec<(Vec<Expr>, usize)> = Vec::new();
         for clause in clauses {
+            let (first, before) = (all.len(), equations);
             let link = semantics::understand(&mut world, scope, clause, true).ok()?;
             for instance in &link.instances {
                 all.extend(instance.lhs.components());
@@ -147,6 +153,7 @@ impl Spoken {
                 }
                 equations += instance.lhs.components().len();
             }
+            clausewise.push((all[first..].to_vec(), equations - before));
         }
         let ids: BTreeSet<SymId> = world.graph.symbols(&all);
         let cancelled = if equations == 1 { cancelled(&mut world, &all) } else { BTreeSet::new() };
@@ -156,17 +163,13 @@ impl Spoken {
         let rates = ids.iter().filter(|id| world.graph.info(**id).order > 0);
         let rates: BTreeSet<String> = rates.map(|id| world.graph.info(base(id)).name.clone()).collect();
         let moves = !rates.is_empty() || symbols.contains("t");
-        (!symbols.is_empty()).then_some(Spoken { symbols, equations, moves, rates })
+        let names = |sides: &[Expr]| -> BTreeSet<String> {
+            let ids = world.graph.symbols(sides).into_iter().map(|id| world.graph.info(base(&id)).name.clone());
+            ids.filter(|name| symbols.contains(name)).collect()
+        };
+        let parts = clausewise.iter().map(|(sides, count)| (names(sides), *count)).collect();
+        (!symbols.is_empty()).then_some(Spoken { symbols, equations, moves, rates, parts })
     }
-}
-
-/// How often each symbol occurs among some candidates.
-pub fn occurrences<'c>(candidates: impl Iterator<Item = &'c Candidate>) -> BTreeMap<&'c str, usize> {
-    let mut count = BTreeMap::new();
-    for candidate in candidates {
-        candidate.symbols.iter().for_each(|s| *count.entry(s.as_str()).or_insert(0) += 1);
-    }
-    count
 }
 
 /// The symbols that are a factor of both sides, or of a power of them, as the mass in m v²/2 = m g h: what is said does not

@@ -276,8 +276,9 @@ pub fn names(node: &Node, found: &mut dyn FnMut(String)) {
             }
             sup.iter().for_each(|sup| names(sup, found));
         }
-        Kind::Scripts { base, sup: Some(sup), primes: 0, .. } => {
-            names(base, found);
+        Kind::Scripts { base, sup: Some(sup), primes, sub: None } => {
+            let bare = Kind::Scripts { base: base.clone(), primes: *primes, sub: None, sup: None };
+            if *primes > 0 { names(&Node::new(bare, node.span.clone()), found) } else { names(base, found) }
             names(sup, found);
         }
         _ if is_name(node) => found(spelling(node)),

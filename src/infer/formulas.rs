@@ -61,9 +61,13 @@ fn formula<'v>(tree: &Node, name: &str, variables: impl Iterator<Item = &'v Stri
     };
     let mut is_side = false;
     let mut found = None;
+    let mut last: Option<&Node> = None;
     for clause in &statement.clauses {
-        is_side = if clause.continued { is_side } else { is_it(&clause.lhs) };
+        // In a = b = c, b = c says what a is, too.
+        let goes_on = clause.continued || last == Some(&clause.lhs);
+        is_side = if goes_on { is_side } else { is_it(&clause.lhs) };
         let semantics::Side::Node(rhs) = &clause.rhs else { continue };
+        last = Some(rhs);
         let mut mentioned = Vec::new();
         names(rhs, &mut |n| mentioned.push(n));
         let fits = variables.iter().all(|v| mentioned.contains(v)) && !mentioned.iter().any(|n| n == name);

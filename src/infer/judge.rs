@@ -1,5 +1,6 @@
 //! The judgement on an equation of notes that declare nothing.
 
+use std::cell::Cell;
 use std::collections::BTreeSet;
 use std::sync::Arc;
 
@@ -107,12 +108,15 @@ impl Ground {
         failing: &[usize],
         options: &Options,
     ) -> Judgement {
-        let mut desk = Desk { book, index, link: 0, taken: Vec::new(), all: &self.candidates, options };
+        let mut desk = Desk { book, index, link: 0, taken: Vec::new(), all: &self.candidates, options, blurred: Cell::new(false) };
         let clauses = desk.clauses();
-        let mut open = Vec::new();
+        let (mut open, mut clear) = (Vec::new(), Vec::new());
         for link in failing {
             desk.link = *link;
             if desk.search(&self.bases(&desk, &clauses)).is_none() {
+                if !desk.blurred.get() {
+                    clear.push(*link);
+                }
                 if !is_chained(&clauses, *link) {
                     desk.taken.push(*link);
                 }
@@ -122,7 +126,7 @@ impl Ground {
         let solution = self.solution(&mut desk, &clauses, &open);
         let found = match solution {
             true => None,
-            false => open.iter().find_map(|link| {
+            false => clear.iter().find_map(|link| {
                 let found = self.suspect(&mut desk, *link, &clauses, &first.links)?;
                 // What is new but for the prose may differ from a single formula there, with other letters.
                 let few = first.links[*link].verdict == Verdict::Definition && found.suspect.premises.len() < 2;
@@ -170,7 +174,7 @@ impl Ground {
 
     /// Shapes that do not meet: those of a wrong guess, or of an identity that has lost something.
     fn misshapen(&self, book: &mut Book, index: usize, first: Judgement, options: &Options) -> Judgement {
-        let mut desk = Desk { book, index, link: 0, taken: Vec::new(), all: &self.candidates, options };
+        let mut desk = Desk { book, index, link: 0, taken: Vec::new(), all: &self.candidates, options, blurred: Cell::new(false) };
         let shapes = (0..first.links.len()).filter(|k| first.links[*k].strength == Some(Strength::Shape));
         let found = shapes.collect::<Vec<_>>().into_iter().find_map(|link| {
             desk.link = link;

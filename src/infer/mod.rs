@@ -23,6 +23,7 @@ mod reshape;
 pub mod roles;
 mod subsets;
 mod suspects;
+mod swaps;
 
 pub use formulas::declare_functions;
 pub use judge::Ground;

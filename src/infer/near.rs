@@ -4,6 +4,7 @@
 //! faster than its last term, the formula is an expansion in that symbol, and right. Where what is left over falls, but
 //! not faster than the last term, a coefficient is wrong or a term is missing: one edit is searched for.
 
+use std::cell::Cell;
 use std::collections::BTreeSet;
 
 use crate::check::verdict::Judgement;
@@ -34,7 +35,7 @@ struct Small {
 impl Ground {
     /// The judgement on an approximation, where something can be said of it.
     pub(super) fn near(&self, book: &mut Book, index: usize, first: &Judgement, options: &Options) -> Option<Judgement> {
-        let mut desk = Desk { book, index, link: 0, taken: Vec::new(), all: &self.candidates, options };
+        let mut desk = Desk { book, index, link: 0, taken: Vec::new(), all: &self.candidates, options, blurred: Cell::new(false) };
         let clauses = desk.clauses();
         let [clause] = clauses.as_slice() else { return None };
         let Side::Node(rhs) = clause.rhs.clone() else { return None };

@@ -166,11 +166,16 @@ impl Elaborator<'_> {
 
     /// Whether both the variable and the upper limit move.
     fn is_along_motion(&mut self, variable: &Node, to: &Limit) -> bool {
-        let moves = self.entry(variable).is_some_and(|(entry, _)| entry.of_t) || self.is_time(variable);
-        let moves = moves || spelling(variable) == "t";
         let Limit::Finite(end) = to else { return false };
+        let is_time = spelling(variable) == "t" || self.is_time(variable);
+        // A component of a vector that moves moves.
+        let components = match is_time {
+            true => Vec::new(),
+            false => self.value(variable).map(|v| v.value.components()).unwrap_or_default(),
+        };
         let graph = &self.world.graph;
-        moves && graph.symbols(&[*end]).iter().any(|s| graph.info(*s).of_t || graph.info(*s).name == "t")
+        let moves = |es: &[Expr]| graph.symbols(es).iter().any(|s| graph.info(*s).of_t || graph.info(*s).name == "t");
+        (is_time || moves(&components)) && moves(&[*end])
     }
 
     fn negative(&mut self, typed: Typed) -> Typed {
