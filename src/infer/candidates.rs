@@ -89,7 +89,9 @@ fn readable(scope: &Scope, clauses: &[Clause]) -> Vec<(String, Vec<Clause>)> {
 }
 
 fn is_readable(scope: &Scope, node: &Node) -> bool {
-    Elaborator::new(&mut World::new(), scope, Vec::new(), true).value(node).is_ok()
+    let mut world = World::new();
+    let value = Elaborator::new(&mut world, scope, Vec::new(), true).value(node);
+    value.is_ok_and(|typed| !world.graph.has_integrals(&typed.value.components()))
 }
 
 /// The inline formulas of a document with their places, their macros expanded.
@@ -111,7 +113,11 @@ fn candidate(source: Origin, span: Span, scope: &Scope, clauses: &[Clause]) -> O
     if matches!(source, Origin::Inline(_)) && clauses.iter().any(is_condition) {
         return None;
     }
-    let Spoken { symbols, equations, moves, rates, parts } = Spoken::of(scope, clauses)?;
+    let Spoken { symbols, equations, moves, rates, parts, integrals } = Spoken::of(scope, clauses)?;
+    // Premises are solved by many steps, at each of which an integral would have to be done; what it is said to equal does.
+    if integrals {
+        return None;
+    }
     Some(Candidate { source, span, symbols, equations, moves, rates, parts })
 }
 
@@ -134,6 +140,8 @@ pub struct Spoken {
     pub rates: BTreeSet<String>,
     /// The symbols and the number of scalar equations of each clause.
     pub parts: Vec<(BTreeSet<String>, usize)>,
+    /// Whether they have definite integrals.
+    pub integrals: bool,
 }
 
 impl Spoken {
@@ -167,8 +175,9 @@ impl Spoken {
             let ids = world.graph.symbols(sides).into_iter().map(|id| world.graph.info(base(&id)).name.clone());
             ids.filter(|name| symbols.contains(name)).collect()
         };
+        let integrals = world.graph.has_integrals(&all);
         let parts = clausewise.iter().map(|(sides, count)| (names(sides), *count)).collect();
-        (!symbols.is_empty()).then_some(Spoken { symbols, equations, moves, rates, parts })
+        (!symbols.is_empty()).then_some(Spoken { symbols, equations, moves, rates, parts, integrals })
     }
 }
 

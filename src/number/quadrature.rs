@@ -205,8 +205,10 @@ impl<N: Real> Rule<'_, N> {
         };
         sums.samples += 1;
         let (value, doubt) = f(&sample);
-        if !(value.is_finite() && doubt.is_finite()) && depth > 0.5 * self.bits {
-            // So near to the end that its distance may have been rounded to nothing: the tail's estimate knows.
+        let known = value.is_finite() && weight.to_f64().abs() * doubt <= f64::exp2(-self.bits) * sums.size;
+        if !known && depth > 0.5 * self.bits {
+            // So near to the end that its distance may have been rounded to nothing, or where what is next to nothing is
+            // not known: the tail's estimate knows.
             sums.ends[side].last = sums.ends[side].last.min(t);
             return false;
         }

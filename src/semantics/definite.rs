@@ -315,7 +315,8 @@ mod tests {
         });
         let tape = Tape::compile(&world.graph, &sides);
         let inputs: Vec<f64> = (0..tape.inputs().len()).map(|k| 0.7 + 0.31 * k as f64).collect();
-        let values = tape.eval(&inputs, &(), &mut Workspace::default());
+        let mut work = Workspace::default();
+        let values = tape.eval(&inputs, &(), &mut work);
         [values[0], values[1]]
     }
 
