@@ -370,7 +370,7 @@ fn link_verdict(source: &Source, clause: &Clause, scope: &Scope, known: &[Clause
         Err(obstacle) => obstructed(judgement, source, clause, &obstacle),
         Ok(claim) => match printed.filter(|p| !p.is_arithmetic()) {
             Some(printed) => value::judge(judgement, source, &printed, claim, options),
-            None => evaluate(judgement, claim, clause.rel, source, options),
+            None => evaluate(judgement, claim, clause, source, options),
         },
     }
 }
@@ -384,8 +384,14 @@ pub fn says_nothing(clause: &Clause) -> bool {
     equality && matches!(&clause.rhs, Side::Node(rhs) if crate::latex::to_latex(rhs) == crate::latex::to_latex(&clause.lhs))
 }
 
-/// Evaluates a claim that is made by a link with the relation `printed`.
-fn evaluate(judgement: LinkJudgement, claim: Claim, printed: Rel, source: &Source, options: &Options) -> LinkJudgement {
+/// Evaluates a claim that is made by a link as `printed`.
+fn evaluate(
+    judgement: LinkJudgement,
+    claim: Claim,
+    printed: &Clause,
+    source: &Source,
+    options: &Options,
+) -> LinkJudgement {
     let restated = claim.restated;
     let judged = by_relation(judgement, claim, printed, source, options);
     LinkJudgement { restated: restated && judged.verdict == Verdict::Holds, ..judged }
@@ -394,7 +400,7 @@ fn evaluate(judgement: LinkJudgement, claim: Claim, printed: Rel, source: &Sourc
 fn by_relation(
     judgement: LinkJudgement,
     claim: Claim,
-    printed: Rel,
+    printed: &Clause,
     source: &Source,
     options: &Options,
 ) -> LinkJudgement {
@@ -403,9 +409,15 @@ fn by_relation(
     let near = |clause: &Clause| matches!(clause.rel, Rel::Approx | Rel::To);
     let told = source.book.statement(source.index, source.version).is_ok_and(|s| s.clauses.iter().any(near));
     match (claim.small, claim.rel) {
-        (Some(_), Rel::Eq | Rel::Equiv) if printed != Rel::Eq || !told => {
+        (Some(_), Rel::Eq | Rel::Equiv) if printed.rel != Rel::Eq || !told => {
             let claimed = entry.annotation().and_then(|a| a.order);
-            let measure = if printed == Rel::To { Measure::Absolute } else { Measure::Relative };
+            let is_zero = |node: &Node| matches!(crate::latex::to_latex(node).as_str(), "0" | "\\mathbf{0}" | "\\vec{0}");
+            let zero = is_zero(&printed.lhs) || matches!(&printed.rhs, Side::Node(n) if is_zero(n));
+            let measure = match printed.rel {
+                Rel::To => Measure::Absolute,
+                _ if zero || printed.rhs == Side::Constant => Measure::Terms,
+                _ => Measure::Relative,
+            };
             order::judge(judgement, claim, measure, claimed, &name, options)
         }
         (_, Rel::Lt | Rel::Le | Rel::Gt | Rel::Ge) => decide::inequality(judgement, claim, &name, options),

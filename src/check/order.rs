@@ -30,6 +30,8 @@ type Course = Vec<(f64, f64)>;
 pub enum Measure {
     /// The larger side: for approximations.
     Relative,
+    /// The terms that it is made of: where one side is printed as 0 or constant.
+    Terms,
     /// Nothing: for limits, which may be zero.
     Absolute,
 }
@@ -161,6 +163,7 @@ fn residual<N: Real<Context = ()>>(
     }
     let scale = match measure {
         Measure::Relative => pairs.iter().map(scale).fold(f64::NEG_INFINITY, f64::max),
+        Measure::Terms => pairs.iter().map(|p| p.scale_log2).fold(f64::NEG_INFINITY, f64::max),
         Measure::Absolute => 0.0,
     };
     let size = pairs
@@ -171,13 +174,10 @@ fn residual<N: Real<Context = ()>>(
     Some(if size == f64::NEG_INFINITY { 0.0 } else { (size - scale).exp2() })
 }
 
-/// log₂ of the larger side; where a side is zero, of the terms of the other. What the premises make of a small side, as
+/// log₂ of the larger side. What the premises make of a small side, as
 /// of T = (γ - 1) m c², may be terms much larger than it, beside which a wrong term of the next order would be nothing.
 fn scale<N: Real>(pair: &PairValue<N>) -> f64 {
-    match (pair.lhs.value().log2_abs(), pair.rhs.value().log2_abs()) {
-        (lhs, rhs) if lhs == f64::NEG_INFINITY || rhs == f64::NEG_INFINITY => pair.scale_log2,
-        (lhs, rhs) => lhs.max(rhs),
-    }
+    pair.lhs.value().log2_abs().max(pair.rhs.value().log2_abs())
 }
 
 /// The slope over the last four halvings that are above rounding, by least squares in logarithms.
