@@ -97,7 +97,10 @@ pub fn choose(
                 let columns = independent(&j.select_columns(&movable));
                 let columns: Vec<usize> = columns.into_iter().map(|c| movable[c]).collect();
                 let rows = independent(&j.select_columns(&columns).transpose());
-                best = Some((special, (rows, columns)));
+                // Where rounding hides the rank, rows and columns may differ in number: another point shows it.
+                if rows.len() == columns.len() {
+                    best = Some((special, (rows, columns)));
+                }
             }
             solutions += 1;
             if special == 0 || solutions == SOLUTIONS {

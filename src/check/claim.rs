@@ -162,6 +162,13 @@ impl<'b> Source<'b> {
         for clause in conditions.chain(known) {
             self.add_clause(&mut world, self.scope(), clause, &mut given).map_err(Obstacle::Link)?;
         }
+        let sides: Vec<Expr> = given.equal.iter().flat_map(|(a, b)| [*a, *b]).collect();
+        if let Some(name) = world.integrated(&sides) {
+            let message = format!("the premises speak of {name}, which is the variable of an integral");
+            let error = Error::unsupported(message, &clause.lhs.span)
+                .with_help("what depends on it must be given by a formula: same = '..', function = [..]");
+            return Err(Obstacle::Link(error));
+        }
         let restated = restates(&branches, &given.equal);
         given.equal.extend(world.integral_rates());
         given.ordered.extend(world.precise().iter().map(|e| (Rel::Gt, *e)));

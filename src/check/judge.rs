@@ -202,7 +202,7 @@ pub(super) fn judge_statement(source: &Source, statement: &Statement, options: &
             if link.verdict == Verdict::Definition {
                 known.push(Clause { rel: Rel::Eq, ..clause.clone() });
                 links.push(link);
-            } else if equality && kind(book, index) == "law" && link.verdict != Verdict::Holds {
+            } else if equality && kind(book, index) == "law" && link.verdict != Verdict::Holds && !says_nothing(clause) {
                 links.push(law::taken(link, source, clause, &known, options));
                 known.push(clause.clone());
             } else {
@@ -336,6 +336,10 @@ pub(super) fn judge_link(
 
 fn link_verdict(source: &Source, clause: &Clause, scope: &Scope, known: &[Clause], options: &Options) -> LinkJudgement {
     let mut judgement = LinkJudgement::unjudged(clause.latex());
+    if says_nothing(clause) {
+        judgement.reason = Some(SAYS_NOTHING.into());
+        return judgement;
+    }
     let entry = &source.book.entries[source.index];
     let printed = value::is_value(source.book, source.index).then(|| value::printed(entry, clause)).flatten();
     let small = entry.annotation().is_some_and(|a| a.small.is_some());
@@ -366,13 +370,28 @@ fn link_verdict(source: &Source, clause: &Clause, scope: &Scope, known: &[Clause
         Err(obstacle) => obstructed(judgement, source, clause, &obstacle),
         Ok(claim) => match printed.filter(|p| !p.is_arithmetic()) {
             Some(printed) => value::judge(judgement, source, &printed, claim, options),
-            None => evaluate(judgement, claim, clause.rel, source, options),
+            None => evaluate(judgement, claim, clause, source, options),
         },
     }
 }
 
-/// Evaluates a claim that is made by a link with the relation `printed`.
-fn evaluate(judgement: LinkJudgement, claim: Claim, printed: Rel, source: &Source, options: &Options) -> LinkJudgement {
+/// Why a link is not judged whose sides are printed alike.
+const SAYS_NOTHING: &str = "both sides are printed alike, so that it says nothing: has one of them lost something?";
+
+/// Whether the sides of a link are printed alike.
+pub fn says_nothing(clause: &Clause) -> bool {
+    let equality = matches!(clause.rel, Rel::Eq | Rel::Equiv);
+    equality && matches!(&clause.rhs, Side::Node(rhs) if crate::latex::to_latex(rhs) == crate::latex::to_latex(&clause.lhs))
+}
+
+/// Evaluates a claim that is made by a link as `printed`.
+fn evaluate(
+    judgement: LinkJudgement,
+    claim: Claim,
+    printed: &Clause,
+    source: &Source,
+    options: &Options,
+) -> LinkJudgement {
     let restated = claim.restated;
     let judged = by_relation(judgement, claim, printed, source, options);
     LinkJudgement { restated: restated && judged.verdict == Verdict::Holds, ..judged }
@@ -381,7 +400,7 @@ fn evaluate(judgement: LinkJudgement, claim: Claim, printed: Rel, source: &Sourc
 fn by_relation(
     judgement: LinkJudgement,
     claim: Claim,
-    printed: Rel,
+    printed: &Clause,
     source: &Source,
     options: &Options,
 ) -> LinkJudgement {
@@ -390,9 +409,15 @@ fn by_relation(
     let near = |clause: &Clause| matches!(clause.rel, Rel::Approx | Rel::To);
     let told = source.book.statement(source.index, source.version).is_ok_and(|s| s.clauses.iter().any(near));
     match (claim.small, claim.rel) {
-        (Some(_), Rel::Eq | Rel::Equiv) if printed != Rel::Eq || !told => {
+        (Some(_), Rel::Eq | Rel::Equiv) if printed.rel != Rel::Eq || !told => {
             let claimed = entry.annotation().and_then(|a| a.order);
-            let measure = if printed == Rel::To { Measure::Absolute } else { Measure::Relative };
+            let is_zero = |node: &Node| matches!(crate::latex::to_latex(node).as_str(), "0" | "\\mathbf{0}" | "\\vec{0}");
+            let zero = is_zero(&printed.lhs) || matches!(&printed.rhs, Side::Node(n) if is_zero(n));
+            let measure = match printed.rel {
+                Rel::To => Measure::Absolute,
+                _ if zero || printed.rhs == Side::Constant => Measure::Terms,
+                _ => Measure::Relative,
+            };
             order::judge(judgement, claim, measure, claimed, &name, options)
         }
         (_, Rel::Lt | Rel::Le | Rel::Gt | Rel::Ge) => decide::inequality(judgement, claim, &name, options),

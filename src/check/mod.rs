@@ -47,7 +47,7 @@ pub use entries::Entries;
 pub use finding::Finding;
 pub use fingerprint::{Fingerprints, Footing};
 pub use formulas::Formulas;
-pub use judge::{blank, judge, judge_one, judge_tree};
+pub use judge::{blank, judge, judge_one, judge_tree, says_nothing};
 pub use memo::Memo;
 pub use options::Options;
 pub(crate) use random::Random;

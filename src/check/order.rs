@@ -1,4 +1,4 @@
-//! Approximations: the residual, relative to the terms it is made of, must fall with the small parameter at the order
+//! Approximations: the residual, relative to the larger side, must fall with the small parameter at the order
 //! that is claimed. Limits: the residual itself must fall. The order is measured over halvings of the parameter, in numbers precise enough that rounding
 //! plays no part.
 
@@ -10,7 +10,7 @@ use crate::number::{Df64, Number, Real};
 use super::claim::Claim;
 use super::options::Options;
 use super::random::{Decimal, Random};
-use super::sampling::{Sampler, no_state_text};
+use super::sampling::{PairValue, Sampler, no_state_text};
 use super::system::State;
 use super::verdict::{LinkJudgement, Order, Strength, Verdict};
 
@@ -28,8 +28,10 @@ type Course = Vec<(f64, f64)>;
 /// What a residual is compared with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Measure {
-    /// The terms that it is made of: for approximations.
+    /// The larger side: for approximations.
     Relative,
+    /// The terms that it is made of: where one side is printed as 0 or constant.
+    Terms,
     /// Nothing: for limits, which may be zero.
     Absolute,
 }
@@ -160,7 +162,8 @@ fn residual<N: Real<Context = ()>>(
         return None;
     }
     let scale = match measure {
-        Measure::Relative => pairs.iter().map(|p| p.scale_log2).fold(f64::NEG_INFINITY, f64::max),
+        Measure::Relative => pairs.iter().map(scale).fold(f64::NEG_INFINITY, f64::max),
+        Measure::Terms => pairs.iter().map(|p| p.scale_log2).fold(f64::NEG_INFINITY, f64::max),
         Measure::Absolute => 0.0,
     };
     let size = pairs
@@ -169,6 +172,12 @@ fn residual<N: Real<Context = ()>>(
         .map(|p| p.residual.value().log2_abs())
         .fold(f64::NEG_INFINITY, f64::max);
     Some(if size == f64::NEG_INFINITY { 0.0 } else { (size - scale).exp2() })
+}
+
+/// log₂ of the larger side. What the premises make of a small side, as
+/// of T = (γ - 1) m c², may be terms much larger than it, beside which a wrong term of the next order would be nothing.
+fn scale<N: Real>(pair: &PairValue<N>) -> f64 {
+    pair.lhs.value().log2_abs().max(pair.rhs.value().log2_abs())
 }
 
 /// The slope over the last four halvings that are above rounding, by least squares in logarithms.
@@ -185,4 +194,35 @@ fn slope(course: &[(f64, f64)]) -> f64 {
     let covariance: f64 = points.iter().map(|p| (p.0 - mx) * (p.1 - my)).sum();
     let variance: f64 = points.iter().map(|p| (p.0 - mx) * (p.0 - mx)).sum();
     covariance / variance
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use crate::check::verdict::Verdict;
+    use crate::document;
+    use crate::verify::{Request, verify};
+
+    #[test]
+    fn the_residual_is_measured_by_the_sides_and_not_by_what_premises_make_of_them() {
+        let notes = r"<!-- kenzan
+[symbols]
+'m, c, v, T' = { range = [0.5, 2.0] }
+-->
+$$ T \approx \frac{1}{2} m v^2 + \frac{3}{8} \frac{m v^4}{c^2} \tag{1} $$
+<!-- kenzan
+where = ['T = m c^2 / \sqrt{1 - v^2/c^2} - m c^2']
+small = 'v'
+order = 4
+range = { 'v' = [0.05, 0.25] }
+-->
+";
+        let verdict = |notes: &str| {
+            let report = verify(document::parse(Path::new("notes.md"), notes), &Request::default(), &|| ()).report;
+            report.equations[0].verdict
+        };
+        assert_eq!(verdict(notes), Verdict::Asymptotic);
+        assert_eq!(verdict(&notes.replace(r"\frac{m v^4}{c^2}", r"\frac{m v^4}{2 c^2}")), Verdict::Fails);
+    }
 }

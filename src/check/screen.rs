@@ -240,7 +240,7 @@ fn operation(node: &Op, at: &dyn Fn(Expr) -> f64) -> f64 {
         Op::Rational(n, d) => n as f64 / d as f64,
         Op::Pi => std::f64::consts::PI,
         Op::E => std::f64::consts::E,
-        Op::Symbol(_) => f64::NAN,
+        Op::Symbol(_) | Op::Integral(_) => f64::NAN,
         Op::Neg(a) => -at(a),
         Op::Add(a, b) => at(a) + at(b),
         Op::Sub(a, b) => at(a) - at(b),

@@ -77,6 +77,8 @@ impl Graph {
             // Elliptic functions have rules of their own.
             Node::Rational(..) | Node::Pi | Node::E | Node::Symbol(_) | Node::Elliptic(..) => self.int(0),
             Node::Neg(_) => self.neg(da),
+            // The limits are within the integrand, so that this is Leibniz's rule.
+            Node::Integral(_) => self.integral(da),
             Node::Add(..) => self.add(da, db),
             Node::Sub(..) => self.sub(da, db),
             Node::Mul(a, b) => {

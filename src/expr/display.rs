@@ -55,6 +55,7 @@ impl Graph {
             Node::Sqrt(a) => unary("sqrt(", a),
             Node::Call(f, a) => unary(&format!("{}(", f.name()), a),
             Node::Atan2(y, x) => binary("atan2(", y, ", ", x),
+            Node::Integral(a) => unary("integral(", a),
             Node::Elliptic(f, x) => {
                 let mut pieces = vec![Piece::Text(f.name().to_owned())];
                 for (i, a) in x.into_iter().enumerate().take(f.arity()) {

@@ -89,6 +89,8 @@ pub enum Node {
     Atan2(Expr, Expr),
     /// An elliptic function of its operands, the last of which fills the places that it does not have.
     Elliptic(Elliptic, [Expr; 4]),
+    /// The integral from 0 to 1 of an expression in the bound symbols: see [`super::integral`].
+    Integral(Expr),
 }
 
 impl Node {
@@ -97,7 +99,7 @@ impl Node {
         let none = Expr(0);
         let (count, operands) = match *self {
             Node::Rational(..) | Node::Pi | Node::E | Node::Symbol(_) => (0, [none; 4]),
-            Node::Neg(a) | Node::PowI(a, _) | Node::Sqrt(a) | Node::Call(_, a) => (1, [a, none, none, none]),
+            Node::Neg(a) | Node::PowI(a, _) | Node::Sqrt(a) | Node::Call(_, a) | Node::Integral(a) => (1, [a, none, none, none]),
             Node::Add(a, b)
             | Node::Sub(a, b)
             | Node::Mul(a, b)
@@ -117,6 +119,7 @@ pub struct Graph {
     symbols: Vec<SymbolInfo>,
     names: HashMap<String, SymId>,
     derivatives: HashMap<(SymId, u32), SymId>,
+    pub(super) bound: HashMap<SymId, super::integral::Bound>,
     deadline: Deadline,
     /// The most nodes, where that is less than [`MOST_NODES`].
     room: Option<usize>,

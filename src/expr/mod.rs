@@ -6,6 +6,7 @@ mod display;
 mod elliptic;
 pub mod field;
 pub mod graph;
+pub mod integral;
 mod magnitude;
 mod parts;
 pub(crate) mod ratio;
@@ -15,6 +16,7 @@ pub mod tape;
 pub use crate::number::{Elliptic, Func};
 pub use deadline::{Cut, Deadline};
 pub use graph::{Expr, Graph, MOST_NODES, Node, SymId, SymbolInfo};
+pub use integral::Bound;
 pub use parts::Parts;
 pub use tape::{Tape, Workspace};
 

@@ -36,6 +36,18 @@ fn place(e: Expr) -> (usize, u64) {
 impl Graph {
     /// Everything the expressions are made of.
     pub fn parts(&self, es: &[Expr]) -> Parts {
+        self.parts_by(es, &|e| self.node(e).operands().collect())
+    }
+
+    /// As [`Graph::parts`], with the symbols that an integral depends on in the place of its integrand.
+    pub(super) fn parts_around_integrals(&self, es: &[Expr]) -> Parts {
+        self.parts_by(es, &|e| match *self.node(e) {
+            Node::Integral(integrand) => self.parameters(integrand),
+            node => node.operands().collect(),
+        })
+    }
+
+    fn parts_by(&self, es: &[Expr], operands: &dyn Fn(Expr) -> Vec<Expr>) -> Parts {
         let words = es.iter().map(|e| place(*e).0 + 1).max().unwrap_or(0);
         let mut marks = vec![0; words];
         let mut order = Vec::new();
@@ -51,7 +63,7 @@ impl Graph {
         let mut next = 0;
         while let Some(&e) = order.get(next) {
             next += 1;
-            self.node(e).operands().for_each(|a| reach(a, &mut order));
+            operands(e).into_iter().for_each(|a| reach(a, &mut order));
         }
         order.sort_unstable();
         let before = marks.iter().scan(0, |count, word| {
@@ -68,10 +80,10 @@ impl Graph {
         self.parts(es).order
     }
 
-    /// The symbols that occur in the expressions.
+    /// The symbols that occur in the expressions, but for those that integrals bind.
     pub fn symbols(&self, es: &[Expr]) -> BTreeSet<SymId> {
         let symbol = |e: Expr| match *self.node(e) {
-            Node::Symbol(s) => Some(s),
+            Node::Symbol(s) if !self.bound.contains_key(&s) => Some(s),
             _ => None,
         };
         self.reachable(es).into_iter().filter_map(symbol).collect()

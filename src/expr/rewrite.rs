@@ -42,6 +42,7 @@ impl Graph {
             Node::Call(f, a) => self.call(f, at(a)),
             Node::Atan2(a, b) => self.atan2(at(a), at(b)),
             Node::Elliptic(f, x) => self.elliptic(f, &x.map(at)),
+            Node::Integral(a) => self.integral(at(a)),
         }
     }
 

@@ -4,6 +4,7 @@
 //! come first and are computed once for a context; then come the inputs, then the rest.
 
 use super::graph::{Expr, Graph, Node, SymId};
+use super::integral::Within;
 use super::parts::Parts;
 use crate::number::{Dual, Elliptic, Func, Number};
 use rustc_hash::FxHashMap as HashMap;
@@ -29,6 +30,8 @@ enum Op {
     Call(Func, Slot),
     Atan2(Slot, Slot),
     Elliptic(Elliptic, [Slot; 4]),
+    /// The integral of this number in the program's list.
+    Integral(u32),
     /// Sine into the slot, cosine into the one after it.
     SinCos(Slot),
 }
@@ -51,6 +54,7 @@ struct Program {
     instructions: Vec<Instruction>,
     slots: usize,
     outputs: Vec<Slot>,
+    integrals: Vec<Within>,
 }
 
 /// Compiled expressions.
@@ -94,7 +98,7 @@ impl<N: Number> Workspace<N> {
                 Op::Ratio(n, d) => self.slots[instruction.to as usize] = N::from_ratio(n, d, cx),
                 Op::Pi => self.slots[instruction.to as usize] = N::pi(cx),
                 Op::E => self.slots[instruction.to as usize] = N::e(cx),
-                _ => run(&mut self.slots, instruction),
+                _ => run(&mut self.slots, instruction, &program.integrals),
             }
         }
         self.prepared = Some((Arc::clone(program), cx.clone()));
@@ -136,7 +140,7 @@ impl Tape {
             slot.set(value);
         }
         for instruction in &program.instructions {
-            run(&mut workspace.slots, instruction);
+            run(&mut workspace.slots, instruction, &program.integrals);
         }
         for (output, &slot) in workspace.outputs.iter_mut().zip(&program.outputs) {
             output.set(&workspace.slots[slot as usize]);
@@ -153,7 +157,7 @@ impl Tape {
 
 /// Runs one instruction. Its operands stand before its own slot.
 #[inline(always)]
-fn run<N: Number>(slots: &mut [N], instruction: &Instruction) {
+fn run<N: Number>(slots: &mut [N], instruction: &Instruction, integrals: &[Within]) {
     let (known, rest) = slots.split_at_mut(instruction.to as usize);
     let [to, next @ ..] = rest else { return };
     let at = |slot: Slot| &known[slot as usize];
@@ -170,6 +174,11 @@ fn run<N: Number>(slots: &mut [N], instruction: &Instruction) {
         Op::Call(f, a) => to.set_call(f, at(a)),
         Op::Atan2(a, b) => to.set_atan2(at(a), at(b)),
         Op::Elliptic(f, x) => to.set_elliptic(f, &x.map(at)[..f.arity()]),
+        Op::Integral(k) => {
+            if let Some(integral) = integrals.get(k as usize) {
+                integral.integrate(known, to);
+            }
+        }
         Op::SinCos(a) => {
             if let Some(cos) = next.first_mut() {
                 N::set_sin_cos(to, cos, at(a));
@@ -187,11 +196,12 @@ struct Compiler<'g> {
     /// The sine and cosine of the same angle, by that angle, where both are wanted.
     both: HashMap<Expr, (Expr, Expr)>,
     next: Slot,
+    integrals: Vec<Within>,
 }
 
 impl<'g> Compiler<'g> {
     fn new(graph: &'g Graph, outputs: &[Expr]) -> Self {
-        let parts = graph.parts(outputs);
+        let parts = graph.parts_around_integrals(outputs);
         let calls = |f: Func| {
             parts.order().iter().filter_map(move |&e| match *graph.node(e) {
                 Node::Call(g, a) if g == f => Some((a, e)),
@@ -201,7 +211,7 @@ impl<'g> Compiler<'g> {
         let sines: HashMap<Expr, Expr> = calls(Func::Sin).collect();
         let both = calls(Func::Cos).filter_map(|(a, cos)| Some((a, (*sines.get(&a)?, cos)))).collect();
         let slot = vec![None; parts.order().len()];
-        Compiler { graph, parts, slot, both, next: 0 }
+        Compiler { graph, parts, slot, both, next: 0, integrals: Vec::new() }
     }
 
     fn compile(mut self, outputs: &[Expr]) -> Tape {
@@ -210,7 +220,11 @@ impl<'g> Compiler<'g> {
         for &e in self.parts.order() {
             let node = self.graph.node(e);
             let is_constant = |a: Expr| self.parts.position(a).is_some_and(|i| constant[i]);
-            let of_constants = !matches!(node, Node::Symbol(_)) && node.operands().all(is_constant);
+            let of_constants = match *node {
+                Node::Symbol(_) => false,
+                Node::Integral(integrand) => self.graph.parameters(integrand).is_empty(),
+                _ => node.operands().all(is_constant),
+            };
             if let Node::Symbol(s) = *node {
                 inputs.push((s, e));
             }
@@ -228,7 +242,8 @@ impl<'g> Compiler<'g> {
         let outputs = outputs.iter().filter_map(|e| self.at(*e)).collect();
         let inputs = inputs.into_iter().map(|(s, _)| s).collect();
         let slots = self.next as usize;
-        Tape { program: Arc::new(Program { constants, inputs, first_input, instructions, slots, outputs }) }
+        let integrals = self.integrals;
+        Tape { program: Arc::new(Program { constants, inputs, first_input, instructions, slots, outputs, integrals }) }
     }
 
     /// The slot of an expression, if it has one yet.
@@ -274,10 +289,15 @@ impl<'g> Compiler<'g> {
     }
 
     /// The operation of a node, whose operands all have their slots; none for a symbol.
-    fn op(&self, e: Expr) -> Option<Op> {
+    fn op(&mut self, e: Expr) -> Option<Op> {
+        if let Node::Integral(integrand) = *self.graph.node(e) {
+            let within = Within::compile(self.graph, integrand, |a| self.at(a).map(|slot| slot as usize))?;
+            self.integrals.push(within);
+            return Some(Op::Integral(self.integrals.len() as u32 - 1));
+        }
         let at = |a: Expr| self.at(a);
         Some(match *self.graph.node(e) {
-            Node::Symbol(_) => return None,
+            Node::Symbol(_) | Node::Integral(_) => return None,
             Node::Rational(n, d) => Op::Ratio(n, d),
             Node::Pi => Op::Pi,
             Node::E => Op::E,

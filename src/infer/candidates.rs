@@ -1,6 +1,6 @@
 //! What an equation may follow from: the displays before it, and the inline formulas around it.
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 use crate::check::{Book, Formula, Version};
 use crate::document::{Document, Span};
@@ -25,6 +25,8 @@ pub struct Candidate {
     pub moves: bool,
     /// The symbols of which it has rates.
     pub rates: BTreeSet<String>,
+    /// Its statements: the symbols and the number of equations of each.
+    pub parts: Vec<(BTreeSet<String>, usize)>,
 }
 
 /// Where a candidate comes from.
@@ -87,7 +89,9 @@ fn readable(scope: &Scope, clauses: &[Clause]) -> Vec<(String, Vec<Clause>)> {
 }
 
 fn is_readable(scope: &Scope, node: &Node) -> bool {
-    Elaborator::new(&mut World::new(), scope, Vec::new(), true).value(node).is_ok()
+    let mut world = World::new();
+    let value = Elaborator::new(&mut world, scope, Vec::new(), true).value(node);
+    value.is_ok_and(|typed| !world.graph.has_integrals(&typed.value.components()))
 }
 
 /// The inline formulas of a document with their places, their macros expanded.
@@ -109,8 +113,12 @@ fn candidate(source: Origin, span: Span, scope: &Scope, clauses: &[Clause]) -> O
     if matches!(source, Origin::Inline(_)) && clauses.iter().any(is_condition) {
         return None;
     }
-    let Spoken { symbols, equations, moves, rates } = Spoken::of(scope, clauses)?;
-    Some(Candidate { source, span, symbols, equations, moves, rates })
+    let Spoken { symbols, equations, moves, rates, parts, integrals } = Spoken::of(scope, clauses)?;
+    // Premises are solved by many steps, at each of which an integral would have to be done; what it is said to equal does.
+    if integrals {
+        return None;
+    }
+    Some(Candidate { source, span, symbols, equations, moves, rates, parts })
 }
 
 /// Whether an inline formula says for which value something is said, `t = 0`, `x = l`, and not what is so.
@@ -130,6 +138,10 @@ pub struct Spoken {
     pub moves: bool,
     /// The symbols of which they have rates.
     pub rates: BTreeSet<String>,
+    /// The symbols and the number of scalar equations of each clause.
+    pub parts: Vec<(BTreeSet<String>, usize)>,
+    /// Whether they have definite integrals.
+    pub integrals: bool,
 }
 
 impl Spoken {
@@ -138,7 +150,9 @@ impl Spoken {
         let mut world = World::new();
         let mut all = Vec::new();
         let mut equations = 0;
+        let mut clausewise: Vec<(Vec<Expr>, usize)> = Vec::new();
         for clause in clauses {
+            let (first, before) = (all.len(), equations);
             let link = semantics::understand(&mut world, scope, clause, true).ok()?;
             for instance in &link.instances {
                 all.extend(instance.lhs.components());
@@ -147,6 +161,7 @@ impl Spoken {
                 }
                 equations += instance.lhs.components().len();
             }
+            clausewise.push((all[first..].to_vec(), equations - before));
         }
         let ids: BTreeSet<SymId> = world.graph.symbols(&all);
         let cancelled = if equations == 1 { cancelled(&mut world, &all) } else { BTreeSet::new() };
@@ -156,17 +171,14 @@ impl Spoken {
         let rates = ids.iter().filter(|id| world.graph.info(**id).order > 0);
         let rates: BTreeSet<String> = rates.map(|id| world.graph.info(base(id)).name.clone()).collect();
         let moves = !rates.is_empty() || symbols.contains("t");
-        (!symbols.is_empty()).then_some(Spoken { symbols, equations, moves, rates })
+        let names = |sides: &[Expr]| -> BTreeSet<String> {
+            let ids = world.graph.symbols(sides).into_iter().map(|id| world.graph.info(base(&id)).name.clone());
+            ids.filter(|name| symbols.contains(name)).collect()
+        };
+        let integrals = world.graph.has_integrals(&all);
+        let parts = clausewise.iter().map(|(sides, count)| (names(sides), *count)).collect();
+        (!symbols.is_empty()).then_some(Spoken { symbols, equations, moves, rates, parts, integrals })
     }
-}
-
-/// How often each symbol occurs among some candidates.
-pub fn occurrences<'c>(candidates: impl Iterator<Item = &'c Candidate>) -> BTreeMap<&'c str, usize> {
-    let mut count = BTreeMap::new();
-    for candidate in candidates {
-        candidate.symbols.iter().for_each(|s| *count.entry(s.as_str()).or_insert(0) += 1);
-    }
-    count
 }
 
 /// The symbols that are a factor of both sides, or of a power of them, as the mass in m v²/2 = m g h: what is said does not

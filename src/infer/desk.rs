@@ -1,5 +1,6 @@
 //! A link of an equation with premises laid beside it, and taken away again.
 
+use std::cell::Cell;
 use std::collections::BTreeSet;
 
 use crate::check::exact::Inexact;
@@ -70,6 +71,8 @@ pub struct Desk<'d> {
     pub all: &'d [Candidate],
     /// How to judge.
     pub options: &'d Options,
+    /// Whether on some premises the numbers did not tell whether the link at hand holds: then nobody is accused.
+    pub blurred: Cell<bool>,
 }
 
 impl Desk<'_> {
@@ -161,7 +164,12 @@ impl Desk<'_> {
     fn holds(&self, options: &Options) -> bool {
         let verdict = match self.is_solution() {
             true => Some(check::judge(self.book, self.index, options).verdict),
-            false => judge_one(self.book, self.index, self.link, &self.taken, options).map(|l| l.verdict),
+            false => judge_one(self.book, self.index, self.link, &self.taken, options).map(|l| {
+                if l.verdict == Verdict::Undecided && l.states > 0 {
+                    self.blurred.set(true);
+                }
+                l.verdict
+            }),
         };
         matches!(verdict, Some(Verdict::Holds | Verdict::Asymptotic))
     }
@@ -220,6 +228,7 @@ impl Desk<'_> {
 
     /// The first basis from which the link follows, made as small as it can be and left on the desk.
     pub fn search(&mut self, bases: &[Basis]) -> Option<Basis> {
+        self.blurred.set(false);
         for basis in bases {
             self.lay(basis);
             if self.follows() {

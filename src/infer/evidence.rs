@@ -18,12 +18,18 @@ pub struct Evidence {
     pub scripts: BTreeMap<String, BTreeSet<String>>,
     /// Names before a bracket that holds other names alone, `f(x)`, with what it holds.
     pub functions: BTreeMap<String, Vec<String>>,
+    /// Names that are given as functions: `f(x)` alone on a side, the other side of which speaks of x.
+    pub given: BTreeSet<String>,
     /// Names that stand beside a matrix in a relation, with its rows and columns.
     pub arrays: BTreeMap<String, (usize, usize)>,
     /// The sizes of the square matrices and columns that are printed.
     pub sizes: BTreeSet<usize>,
     /// Names of which derivatives are taken by something else than the time, with what they are taken by.
     pub derived: BTreeMap<String, BTreeSet<String>>,
+    /// Names in integrands, with the variables that they are integrated over.
+    pub integrated: BTreeMap<String, BTreeSet<String>>,
+    /// Names with a dot or under d/dt: what is seen to move itself, and not said to equal what does.
+    pub rates: BTreeSet<String>,
     /// Names directly behind sin, cos, tan.
     pub angles: BTreeSet<String>,
     /// Sides beside a name: what it may be defined as.
@@ -37,6 +43,7 @@ impl Evidence {
             Kind::Symbol(s) if s == "t" => self.time = true,
             Kind::Dots(_, body) => {
                 self.moves.insert(spelling(body));
+                self.rates.insert(spelling(body));
                 self.time = true;
             }
             Kind::Scripts { base, sub, .. } => self.scripts(base, sub.as_deref()),
@@ -96,6 +103,7 @@ impl Evidence {
         for variable in variables {
             if variable == "t" {
                 self.moves.insert(name.clone());
+                self.rates.insert(name.clone());
             } else {
                 self.derived.entry(name.clone()).or_default().insert(variable.clone());
             }
@@ -103,6 +111,7 @@ impl Evidence {
     }
 
     fn product(&mut self, factors: &[Node]) {
+        self.integral(factors);
         for pair in factors.windows(2) {
             let [head, next] = pair else { continue };
             let head = without_power(head);
@@ -141,8 +150,33 @@ impl Evidence {
         }
     }
 
+    /// `\int_a^b f\, dx`: what f is made of may depend on x; where x does not stand in f, it does.
+    fn integral(&mut self, factors: &[Node]) {
+        let is_sign = |n: &Node| match &n.kind {
+            Kind::Scripts { base, sub: Some(_), sup: Some(_), .. } => matches!(base.kind, Kind::BigOp(BigOp::Integral)),
+            _ => false,
+        };
+        let Some(sign) = factors.iter().position(is_sign) else { return };
+        let behind = &factors[sign + 1..];
+        let differential = behind.windows(2).rposition(|pair| is_d(&pair[0]) && is_name(&pair[1]));
+        let Some(at) = differential else { return };
+        let variable = spelling(&behind[at + 1]);
+        let mut inner = Vec::new();
+        behind[..at].iter().for_each(|factor| names(factor, &mut |name| inner.push(name)));
+        let hidden = !inner.contains(&variable);
+        for name in inner.into_iter().filter(|n| *n != variable && !is_constant(n)) {
+            self.integrated.entry(name.clone()).or_default().insert(variable.clone());
+            match variable.as_str() {
+                _ if !hidden => {}
+                "t" => drop(self.moves.insert(name)),
+                _ => drop(self.derived.entry(name).or_default().insert(variable.clone())),
+            }
+        }
+    }
+
     fn relation(&mut self, node: &Node) {
         let sides = node.children();
+        self.given_functions(&sides);
         for (k, side) in sides.iter().enumerate().filter(|(_, side)| is_name(side)) {
             for other in sides.iter().enumerate().filter(|(j, _)| *j != k).map(|(_, other)| other) {
                 if let Some(shape) = shape(other) {
@@ -150,6 +184,22 @@ impl Evidence {
                 } else {
                     self.equals.push((spelling(side), (*other).clone()));
                 }
+            }
+        }
+    }
+
+    fn given_functions(&mut self, sides: &[&Node]) {
+        for (k, side) in sides.iter().enumerate() {
+            let Kind::Juxt(factors) = &side.kind else { continue };
+            let [head, Node { kind: Kind::Group { open: Delim::Paren, body, .. }, .. }] = factors.as_slice() else {
+                continue;
+            };
+            let Some(arguments) = arguments(body).filter(|_| is_name(head)) else { continue };
+            let mut others = Vec::new();
+            let rest = sides.iter().enumerate().filter(|(j, _)| *j != k);
+            rest.for_each(|(_, other)| names(other, &mut |name| others.push(name)));
+            if arguments.iter().all(|a| others.contains(a)) {
+                self.given.insert(spelling(head));
             }
         }
     }
@@ -226,8 +276,9 @@ pub fn names(node: &Node, found: &mut dyn FnMut(String)) {
             }
             sup.iter().for_each(|sup| names(sup, found));
         }
-        Kind::Scripts { base, sup: Some(sup), primes: 0, .. } => {
-            names(base, found);
+        Kind::Scripts { base, sup: Some(sup), primes, sub: None } => {
+            let bare = Kind::Scripts { base: base.clone(), primes: *primes, sub: None, sup: None };
+            if *primes > 0 { names(&Node::new(bare, node.span.clone()), found) } else { names(base, found) }
             names(sup, found);
         }
         _ if is_name(node) => found(spelling(node)),

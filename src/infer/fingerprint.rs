@@ -16,7 +16,7 @@ impl Ground {
         let mut hasher = DefaultHasher::new();
         let entry = &book.entries[index];
         for guess in self.guesses.iter().filter(|g| entry.mentions.contains_key(&g.name)) {
-            (&guess.name, format!("{:?}", guess.role), &guess.each).hash(&mut hasher);
+            (&guess.name, format!("{:?}", guess.role), &guess.each, guess.lent).hash(&mut hasher);
         }
         let clauses = book.statement(index, Version::Printed).map(|s| s.clauses).unwrap_or_default();
         let Some(whole) = Spoken::of(&entry.scope, &clauses) else { return hasher.finish() };
@@ -28,7 +28,8 @@ impl Ground {
                 Origin::Part(_, label, latex) => (label, latex).hash(&mut hasher),
                 Origin::Inline(latex) => (false, latex).hash(&mut hasher),
             }
-            (&candidate.symbols, candidate.equations, candidate.moves, &candidate.rates).hash(&mut hasher);
+            (&candidate.symbols, candidate.equations, &candidate.parts).hash(&mut hasher);
+            (candidate.moves, &candidate.rates).hash(&mut hasher);
         }
         hasher.finish()
     }

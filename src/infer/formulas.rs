@@ -1,5 +1,5 @@
-//! What a quantity is as a function: where a derivative of it is taken by something else than the time, the notes have
-//! said before what it is, `\phi = Q / 4 \pi \varepsilon_0 r`.
+//! What a quantity is as a function: where a derivative of it is taken by something else than the time, or where it is
+//! integrated, the notes have said before what it is, `\phi = Q / 4 \pi \varepsilon_0 r`.
 
 use std::sync::Arc;
 
@@ -35,7 +35,8 @@ pub fn functions(book: &Book, document: &Document) -> Vec<(usize, Vec<SymbolDecl
         let mut evidence = Evidence::default();
         evidence.look(tree);
         let at = entry.equation.span.start;
-        let declared = evidence.derived.iter().filter_map(|(name, variables)| {
+        let dependent = evidence.derived.iter().chain(&evidence.integrated);
+        let declared = dependent.filter_map(|(name, variables)| {
             let mut before = known.iter().rev().filter(|(place, _)| *place < at);
             let formula = before.find_map(|(_, tree)| formula(tree, name, variables.iter()))?;
             Some(declaration(name, variables.iter(), &formula, at))
@@ -60,9 +61,13 @@ fn formula<'v>(tree: &Node, name: &str, variables: impl Iterator<Item = &'v Stri
     };
     let mut is_side = false;
     let mut found = None;
+    let mut last: Option<&Node> = None;
     for clause in &statement.clauses {
-        is_side = if clause.continued { is_side } else { is_it(&clause.lhs) };
+        // In a = b = c, b = c says what a is, too.
+        let goes_on = clause.continued || last == Some(&clause.lhs);
+        is_side = if goes_on { is_side } else { is_it(&clause.lhs) };
         let semantics::Side::Node(rhs) = &clause.rhs else { continue };
+        last = Some(rhs);
         let mut mentioned = Vec::new();
         names(rhs, &mut |n| mentioned.push(n));
         let fits = variables.iter().all(|v| mentioned.contains(v)) && !mentioned.iter().any(|n| n == name);

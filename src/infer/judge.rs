@@ -1,18 +1,25 @@
 //! The judgement on an equation of notes that declare nothing.
 
+use std::cell::Cell;
 use std::collections::BTreeSet;
+use std::sync::Arc;
 
 use crate::check::verdict::{Inferred, InferredLink, Judgement, LinkJudgement, Strength, Verdict};
-use crate::check::{self, Book, Options};
-use crate::document::{Document, Spanned};
+use crate::check::{self, Book, Options, Version};
+use crate::document::{Document, Spanned, SymbolDeclaration};
+use crate::latex::ast::Node;
 use crate::semantics::{Clause, Side, spelling};
 
-use super::candidates::{Candidate, Spoken, candidates};
+use super::candidates::{Candidate, Origin, Spoken, candidates};
 use super::desk::{Basis, Desk};
+use super::evidence::Evidence;
 use super::premises;
 use super::references::named;
 use super::roles::{Guess, Role};
 use super::suspects::{self, Found};
+
+/// How many premises are tried, one by one, for what says nothing as it is printed.
+const NEAREST: usize = 8;
 
 /// What the equations of a document may follow from.
 pub struct Ground {
@@ -37,9 +44,9 @@ impl Ground {
         if book.entries[index].equation.annotation.is_some() {
             return check::judge(book, index, options);
         }
-        let own = book.entries[index].equation.clone();
+        let own = book.entries[index].clone();
         let judgement = self.inferred(book, index, options);
-        book.entries[index].equation = own;
+        book.entries[index] = own;
         judgement
     }
 
@@ -53,35 +60,129 @@ impl Ground {
 
     fn inferred(&self, book: &mut Book, index: usize, options: &Options) -> Judgement {
         let first = check::judge(book, index, options);
-        let failing: Vec<usize> = (0..first.links.len()).filter(|k| fails(&first.links[*k])).collect();
+        let clauses = book.statement(index, Version::Printed).map_or_else(|_| Vec::new(), |s| s.clauses);
+        let is_open = |k: &usize| {
+            let (link, clause) = (&first.links[*k], clauses.get(*k));
+            let spoken = || link.verdict == Verdict::Definition && clause.is_some_and(|c| self.is_spoken_of(book, index, c));
+            fails(link) || clause.is_some_and(check::says_nothing) || spoken()
+        };
+        let failing: Vec<usize> = (0..first.links.len()).filter(is_open).collect();
         match first.verdict {
-            Verdict::Holds => return self.with_signs(book, index, first, true, options),
-            Verdict::Fails if failing.is_empty() => return misshapen(first),
-            Verdict::Fails => {}
+            Verdict::Holds if failing.is_empty() => return self.with_signs(book, index, first, true, options),
+            Verdict::Fails if failing.is_empty() => return self.misshapen(book, index, first, options),
+            Verdict::Undecided if failing.is_empty() => {
+                let near = self.near(book, index, &first, options);
+                return near.unwrap_or_else(|| lacking(first));
+            }
+            Verdict::Holds | Verdict::Definition | Verdict::Fails | Verdict::Undecided if !failing.is_empty() => {}
             _ => return lacking(first),
         }
-        let mut desk = Desk { book, index, link: 0, taken: Vec::new(), all: &self.candidates, options };
+        let own = book.entries[index].clone();
+        let judgement = self.on_premises(book, index, &first, &failing, options);
+        let unsettled = judgement.suspect.is_none() && judgement.inferred.as_ref().is_some_and(|i| i.new);
+        let resting = if unsettled { self.resting(book, index) } else { Vec::new() };
+        if resting.is_empty() {
+            return judgement;
+        }
+        // What moves only because it equals something that does elsewhere may be at rest here.
+        let found = book.entries[index].clone();
+        book.entries[index] = own;
+        let scope = book.entries[index].scope.with_local(&resting, &mut Vec::new());
+        book.entries[index].scope = Arc::new(scope);
+        let mut again = self.on_premises(book, index, &first, &failing, options);
+        if again.verdict != Verdict::Holds && again.suspect.is_none() {
+            book.entries[index] = found;
+            return judgement;
+        }
+        let names = resting.iter().flat_map(|d| &d.names).map(|name| format!("\\dot{{{}}} = 0", name.value));
+        again.inferred.get_or_insert_default().needs.extend(names);
+        again
+    }
+
+    /// The judgement on the open links of an equation on what stands before it.
+    fn on_premises(
+        &self,
+        book: &mut Book,
+        index: usize,
+        first: &Judgement,
+        failing: &[usize],
+        options: &Options,
+    ) -> Judgement {
+        let mut desk = Desk { book, index, link: 0, taken: Vec::new(), all: &self.candidates, options, blurred: Cell::new(false) };
         let clauses = desk.clauses();
-        let mut open = Vec::new();
+        let (mut open, mut clear) = (Vec::new(), Vec::new());
         for link in failing {
-            desk.link = link;
+            desk.link = *link;
             if desk.search(&self.bases(&desk, &clauses)).is_none() {
-                if !is_chained(&clauses, link) {
-                    desk.taken.push(link);
+                if !desk.blurred.get() {
+                    clear.push(*link);
                 }
-                open.push(link);
+                if !is_chained(&clauses, *link) {
+                    desk.taken.push(*link);
+                }
+                open.push(*link);
             }
         }
         let solution = self.solution(&mut desk, &clauses, &open);
         let found = match solution {
             true => None,
-            false => open.iter().find_map(|link| self.suspect(&mut desk, *link, &clauses, &first.links)),
+            false => clear.iter().find_map(|link| {
+                let found = self.suspect(&mut desk, *link, &clauses, &first.links)?;
+                // What is new but for the prose may differ from a single formula there, with other letters.
+                let few = first.links[*link].verdict == Verdict::Definition && found.suspect.premises.len() < 2;
+                (!few).then_some(found)
+            }),
         };
         let open = if solution { Vec::new() } else { open };
         let judgement = conclude(&mut desk, &clauses, &open);
         match found {
             Some(found) => suspected(judgement, found),
             None if judgement.verdict == Verdict::Holds => self.with_signs(book, index, judgement, false, options),
+            None => judgement,
+        }
+    }
+
+    /// Whether a formula in the prose speaks of what a clause is taken to introduce.
+    fn is_spoken_of(&self, book: &Book, index: usize, clause: &Clause) -> bool {
+        let own = &book.entries[index].equation.span;
+        let next = book.entries.iter().skip(index + 1).map(|e| e.equation.span.start).find(|start| *start >= own.end);
+        let usable = |c: &&Candidate| {
+            matches!(c.source, Origin::Inline(_))
+                && next.is_none_or(|next| c.span.start < next)
+                && !own.contains(&c.span.start)
+        };
+        let is_new = |name: &str| book.entries[index].mentions.contains_key(name) && !book.mentioned_before(index, name);
+        let names = [Some(&clause.lhs), right(clause)].into_iter().flatten().map(spelling);
+        let names: Vec<String> = names.filter(|name| !name.is_empty() && is_new(name)).collect();
+        self.candidates.iter().filter(usable).any(|c| names.iter().any(|name| c.symbols.contains(name)))
+    }
+
+    /// Declarations of what is at rest, of names in an equation with rates that move only because of what they are said
+    /// to equal elsewhere.
+    fn resting(&self, book: &Book, index: usize) -> Vec<SymbolDeclaration> {
+        let entry = &book.entries[index];
+        let Ok(tree) = &entry.formula(Version::Printed).tree else { return Vec::new() };
+        let mut evidence = Evidence::default();
+        evidence.look(tree);
+        if evidence.rates.is_empty() {
+            return Vec::new();
+        }
+        let is_side = |name: &String| evidence.equals.iter().any(|(side, _)| side == name);
+        let lent = self.guesses.iter().filter(|g| g.lent && entry.mentions.contains_key(&g.name) && !is_side(&g.name));
+        lent.map(|g| Guess { moves: false, ..g.clone() }.declaration()).collect()
+    }
+
+    /// Shapes that do not meet: those of a wrong guess, or of an identity that has lost something.
+    fn misshapen(&self, book: &mut Book, index: usize, first: Judgement, options: &Options) -> Judgement {
+        let mut desk = Desk { book, index, link: 0, taken: Vec::new(), all: &self.candidates, options, blurred: Cell::new(false) };
+        let shapes = (0..first.links.len()).filter(|k| first.links[*k].strength == Some(Strength::Shape));
+        let found = shapes.collect::<Vec<_>>().into_iter().find_map(|link| {
+            desk.link = link;
+            suspects::search(&mut desk, &[], &BTreeSet::new(), &first.links)
+        });
+        let judgement = misshapen(first);
+        match found {
+            Some(found) => suspected(judgement, found),
             None => judgement,
         }
     }
@@ -98,8 +199,11 @@ impl Ground {
     }
 
     /// What the link at hand may follow from.
-    fn bases(&self, desk: &Desk, clauses: &[Clause]) -> Vec<Basis> {
+    pub(super) fn bases(&self, desk: &Desk, clauses: &[Clause]) -> Vec<Basis> {
         let Some((nearby, target)) = self.nearby(desk, clauses) else { return Vec::new() };
+        if clauses.get(desk.link).is_some_and(check::says_nothing) {
+            return nearby.iter().take(NEAREST).map(|k| Basis::of(&[*k])).collect();
+        }
         let alone = (!desk.taken.is_empty()).then(Basis::default);
         alone.into_iter().chain(premises::bases(&nearby, &self.candidates, &target)).collect()
     }
@@ -114,15 +218,20 @@ impl Ground {
 
     /// Whether the equation solves one before it.
     fn solution(&self, desk: &mut Desk, clauses: &[Clause], open: &[usize]) -> bool {
-        // Put into what it solves, an equation is not judged by itself: what else it says would not be.
-        let (&[link], [_]) = (open, clauses) else { return false };
+        // Put into what it solves, an equation is not judged by itself: what else it says must follow.
+        let &[link] = open else { return false };
         desk.link = link;
         desk.search(&self.solutions(desk, clauses)).is_some()
     }
 
-    /// What the equation on the desk may solve, if it says nothing else.
+    /// What the link at hand may solve.
     fn solutions(&self, desk: &Desk, clauses: &[Clause]) -> Vec<Basis> {
-        let ([clause], Some((nearby, target))) = (clauses, self.nearby(desk, clauses)) else { return Vec::new() };
+        let (Some(clause), Some((nearby, target))) = (clauses.get(desk.link), self.nearby(desk, clauses)) else {
+            return Vec::new();
+        };
+        if is_chained(clauses, desk.link) {
+            return Vec::new();
+        }
         premises::solutions(&nearby, &self.candidates, &spelling(&clause.lhs), &target)
     }
 
@@ -174,6 +283,13 @@ fn is_chained(clauses: &[Clause], link: usize) -> bool {
     before.is_some_and(|before| before.rhs == Side::Node(clauses[link].lhs.clone())) || clauses[link].continued
 }
 
+fn right(clause: &Clause) -> Option<&Node> {
+    match &clause.rhs {
+        Side::Node(rhs) => Some(rhs),
+        Side::Constant => None,
+    }
+}
+
 /// Whether a link fails at states, and not by its shape.
 fn fails(link: &LinkJudgement) -> bool {
     link.verdict == Verdict::Fails && link.strength != Some(Strength::Shape)
@@ -200,7 +316,7 @@ fn misshapen(mut judgement: Judgement) -> Judgement {
 
 /// The judgement with the premises that were found. What follows from nothing is new; but a link that continues another
 /// one was to follow.
-fn conclude(desk: &mut Desk, clauses: &[Clause], open: &[usize]) -> Judgement {
+pub(super) fn conclude(desk: &mut Desk, clauses: &[Clause], open: &[usize]) -> Judgement {
     let new = !open.is_empty() && open.iter().all(|k| !is_chained(clauses, *k));
     desk.say_kind(new.then_some("law"));
     let mut judgement = check::judge(desk.book, desk.index, desk.options);
@@ -239,7 +355,8 @@ fn conclude(desk: &mut Desk, clauses: &[Clause], open: &[usize]) -> Judgement {
         judgement.counterexample = judgement.links.iter().find_map(|l| l.counterexample.clone());
         judgement.strength = judgement.strength.filter(|_| judgement.verdict == Verdict::Fails);
     }
-    judgement.as_expected = !matches!(judgement.verdict, Verdict::Fails | Verdict::Unreadable);
+    let nothing = clauses.iter().any(check::says_nothing);
+    judgement.as_expected = !matches!(judgement.verdict, Verdict::Fails | Verdict::Unreadable) && !nothing;
     judgement
 }
 
@@ -249,7 +366,7 @@ fn without_symbols(link: &LinkJudgement) -> bool {
 }
 
 /// The judgement on an equation that one edit would make follow.
-fn suspected(mut judgement: Judgement, Found { suspect, contradicts }: Found) -> Judgement {
+pub(super) fn suspected(mut judgement: Judgement, Found { suspect, contradicts }: Found) -> Judgement {
     let premises = list(&suspect.premises);
     let follows = if premises.is_empty() { "be an identity".into() } else { format!("follow from {premises}") };
     let (verdict, reason) = match contradicts {

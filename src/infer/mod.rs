@@ -15,12 +15,15 @@ pub mod evidence;
 mod fingerprint;
 mod formulas;
 mod judge;
+mod letters;
+mod near;
 mod premises;
 mod references;
 mod reshape;
 pub mod roles;
 mod subsets;
 mod suspects;
+mod swaps;
 
 pub use formulas::declare_functions;
 pub use judge::Ground;

@@ -30,7 +30,10 @@ pub fn nearby(book: &Book, index: usize, all: &[Candidate], named: &BTreeSet<usi
     let is_named =
         |c: &Candidate| matches!(&c.source, Origin::Display(k, _) | Origin::Part(k, _, _) if named.contains(k));
     let mut found: Vec<usize> = (0..all.len()).filter(|k| usable(&all[*k])).collect();
-    found.sort_by_key(|k| (!is_named(&all[*k]), all[*k].span.start.abs_diff(own.start)));
+    // What speaks of nothing else than the link at hand says most of it, wherever it stands.
+    let is_foreign = |c: &Candidate| !c.symbols.is_subset(&target.symbols);
+    let distance = |c: &Candidate| c.span.start.abs_diff(own.start);
+    found.sort_by_key(|k| (!is_named(&all[*k]), is_foreign(&all[*k]), distance(&all[*k])));
     // What no chain of shared symbols leads to says nothing.
     let mut reached = target.symbols.clone();
     let mut kept = vec![false; found.len()];

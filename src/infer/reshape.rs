@@ -21,6 +21,10 @@ pub(super) fn reshape(guesses: &mut BTreeMap<String, Guess>, evidence: &Evidence
         if !misshapen(guesses, clause) {
             continue;
         }
+        unbracket(guesses, evidence, clause, clauses);
+        if !misshapen(guesses, clause) {
+            continue;
+        }
         let names: Vec<String> = names_of(clause).into_iter().filter(|n| guesses.contains_key(n)).collect();
         let others: Vec<&Clause> = clauses.iter().filter(|c| !names_of(c).is_disjoint(&names_of(clause))).collect();
         let before: usize = others.iter().filter(|c| misshapen(guesses, c)).count();
@@ -38,6 +42,23 @@ pub(super) fn reshape(guesses: &mut BTreeMap<String, Guess>, evidence: &Evidence
             if !misshapen(guesses, clause) {
                 break;
             }
+        }
+    }
+}
+
+/// Letters before a bracket that are factors and no functions, `q(\mathbf{E})`: where the shapes meet so, the letter is given as
+/// a function nowhere, and no other formula suffers.
+fn unbracket(guesses: &mut BTreeMap<String, Guess>, evidence: &Evidence, clause: &Clause, clauses: &[Clause]) {
+    for name in names_of(clause) {
+        let is_function = evidence.given.contains(&name) || evidence.derived.contains_key(&name);
+        let Some(guess) = guesses.get(&name).filter(|g| !g.of.is_empty() && !is_function) else { continue };
+        let mut tried = guesses.clone();
+        tried.insert(name.clone(), Guess { of: Vec::new(), ..guess.clone() });
+        let speaks = |c: &&Clause| names_of(c).contains(&name);
+        let suffers = |c: &Clause| misshapen(&tried, c) && !misshapen(guesses, c);
+        if !misshapen(&tried, clause) && !clauses.iter().filter(speaks).any(suffers) {
+            *guesses = tried;
+            return;
         }
     }
 }

@@ -14,6 +14,7 @@ use crate::semantics::{Clause, Error, ErrorKind, Scope, World, understand};
 
 use super::candidates::inline;
 use super::evidence::Evidence;
+use super::letters::{bare_names, first_e, letter_e, may_be_factor};
 use super::formulas;
 use super::reshape;
 
@@ -90,6 +91,8 @@ pub struct Guess {
     pub each: Vec<String>,
     /// Where it is first printed, in bytes of the file.
     pub at: usize,
+    /// Whether it moves only because it is said to equal something that does: it may be constant elsewhere.
+    pub lent: bool,
 }
 
 impl Guess {
@@ -149,9 +152,13 @@ pub fn guess(document: &Document) -> Vec<Guess> {
     let mut evidence = Evidence::default();
     let inline: Vec<Node> = inline(document).filter_map(|(_, formula)| formula.tree.ok()).collect();
     let displays = book.entries.iter().filter_map(|e| e.formula(Version::Printed).tree.as_ref().ok());
-    displays.chain(&inline).for_each(|tree| evidence.look(tree));
+    let trees: Vec<&Node> = displays.chain(&inline).collect();
+    trees.iter().for_each(|tree| evidence.look(tree));
     evidence.spread_motion();
 
+    let is_charge = letter_e(&trees);
+    let bare = bare_names(&trees);
+    evidence.functions.retain(|name, _| !(may_be_factor(name) && bare.contains(name)) || evidence.given.contains(name));
     let mut guesser = Guesser { evidence, scope: Scope::default(), guesses: BTreeMap::new() };
     let mut clauses = Vec::new();
     for (index, entry) in book.entries.iter().enumerate() {
@@ -162,6 +169,9 @@ pub fn guess(document: &Document) -> Vec<Guess> {
             entry.equation.span.start + at.saturating_sub(prefix)
         };
         for clause in statement.clauses {
+            if let Some(span) = is_charge.then(|| first_e(&clause)).flatten() {
+                guesser.declare("e", place(&span));
+            }
             guesser.read(&clause, &place);
             clauses.push(clause);
         }
@@ -218,6 +228,9 @@ impl Guesser {
 
     /// Declares a name and the indices it has; `false` where that leads nowhere.
     fn declare(&mut self, name: &str, at: usize) -> bool {
+        if name == "\\infty" {
+            return false;
+        }
         let each = self.indices(name);
         for letter in &each {
             if !self.guesses.contains_key(letter) {
@@ -228,6 +241,7 @@ impl Guesser {
                     of: Vec::new(),
                     each: Vec::new(),
                     at,
+                    lent: false,
                 });
             }
         }
@@ -238,7 +252,8 @@ impl Guesser {
         let moves = self.evidence.moves.contains(name) && !matches!(role, Role::Time | Role::Index(..));
         let scalar = matches!(role, Role::Number | Role::Positive | Role::Angle | Role::Vector);
         let of = if scalar { self.arguments(name) } else { Vec::new() };
-        self.add(Guess { name: name.to_owned(), role, moves, of, each, at });
+        let lent = moves && !self.evidence.rates.contains(name);
+        self.add(Guess { name: name.to_owned(), role, moves, of, each, at, lent });
         true
     }
 

@@ -5,9 +5,9 @@
 //! premises must hang together. Derivatives by time say more than what they are taken of: where something moves only
 //! the last is asked for.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
-use super::candidates::{Candidate, Spoken, occurrences};
+use super::candidates::{Candidate, Spoken};
 
 /// The most premises of which all combinations are tried.
 pub const LARGEST: usize = 4;
@@ -86,13 +86,26 @@ pub fn hang_together(target: &Spoken, premises: &[&Candidate]) -> bool {
     }
 }
 
-/// Whether the symbols that the formula does not speak of can be eliminated.
+/// Whether the symbols that the formula does not speak of can be eliminated. A statement that has as many symbols to itself
+/// as it makes equations only makes room for these: it is left out, and none may be left of a premise.
 fn eliminate(target: &Spoken, premises: &[&Candidate]) -> bool {
-    let count = occurrences(premises.iter().copied());
-    let strangers: Vec<&str> = count.keys().filter(|s| !target.symbols.contains(**s)).copied().collect();
-    let equations: usize = premises.iter().map(|p| p.equations).sum();
-    let private = |p: &&Candidate| {
-        p.equations == 1 && p.symbols.iter().any(|s| count[s.as_str()] == 1 && !target.symbols.contains(s))
-    };
-    equations > strangers.len() && !premises.iter().any(private)
+    let statements = premises.iter().enumerate().flat_map(|(k, p)| p.parts.iter().map(move |part| (k, part)));
+    let mut statements: Vec<(usize, &(BTreeSet<String>, usize))> = statements.collect();
+    loop {
+        let mut count: BTreeMap<&str, usize> = BTreeMap::new();
+        let strangers = |part: &&(usize, &(BTreeSet<String>, usize))| part.1.0.difference(&target.symbols).count();
+        for (_, (symbols, _)) in &statements {
+            symbols.difference(&target.symbols).for_each(|s| *count.entry(s).or_insert(0) += 1);
+        }
+        let own = |symbols: &BTreeSet<String>| symbols.iter().filter(|s| count.get(s.as_str()) == Some(&1)).count();
+        let makes_room = |part: &(usize, &(BTreeSet<String>, usize))| strangers(&part) > 0 && own(&part.1.0) >= part.1.1;
+        match statements.iter().position(makes_room) {
+            Some(k) => drop(statements.remove(k)),
+            None => {
+                let equations: usize = statements.iter().map(|(_, (_, equations))| equations).sum();
+                let needed = (0..premises.len()).all(|k| statements.iter().any(|(premise, _)| *premise == k));
+                return needed && equations > count.len();
+            }
+        }
+    }
 }

@@ -8,6 +8,7 @@ use crate::diagnose::{Edited, slips};
 use crate::latex::{diff, to_latex};
 
 use super::desk::{Basis, Desk};
+use super::swaps::swaps;
 
 /// How many sets of premises are tried with edits, and how large they are at most.
 const BASES: usize = 12;
@@ -41,7 +42,8 @@ pub fn search(desk: &mut Desk, bases: &[Basis], named: &BTreeSet<usize>, links: 
     let mut best: Option<(u32, Basis, Edited)> = None;
     for basis in alone.into_iter().chain(few) {
         desk.lay(&basis);
-        let edited = edited(desk, links, best.as_ref().map_or(LIKELY + 1, |(cost, _, _)| *cost));
+        let below = best.as_ref().map_or(LIKELY + 1, |(cost, _, _)| *cost);
+        let edited = edited(desk, links, below, basis == Basis::default());
         best = edited.map(|edited| (edited.cost, basis, edited)).or(best);
     }
     desk.lay(&Basis::default());
@@ -57,13 +59,18 @@ pub fn search(desk: &mut Desk, bases: &[Basis], named: &BTreeSet<usize>, links: 
     Some(Found { suspect: Suspect { edit: edited.edit, latex, label, premises, diff }, contradicts })
 }
 
-/// The likeliest edit after which the link follows from what is laid beside it, if it is likelier than one known.
-fn edited(desk: &Desk, links: &[LinkJudgement], below: u32) -> Option<Edited> {
+/// The likeliest edit after which the link follows from what is laid beside it, if it is likelier than one known. Where
+/// nothing is laid beside it, it is to be an identity, and wider edits are tried.
+fn edited(desk: &Desk, links: &[LinkJudgement], below: u32, alone: bool) -> Option<Edited> {
     let tree = desk.book.entries[desk.index].formula(Version::Printed).tree.as_ref().ok()?;
     let clauses = desk.clauses();
     let mut trial = desk.trial(links)?;
-    let slips = slips(desk.book, desk.index, tree).into_iter();
-    for edited in slips.take(EDITS).take_while(|edited| edited.cost < below) {
+    let mut slips: Vec<Edited> = slips(desk.book, desk.index, tree).into_iter().take(EDITS).collect();
+    if alone {
+        slips.extend(swaps(tree, &desk.book.entries[desk.index].scope));
+        slips.sort_by_key(|edited| edited.cost);
+    }
+    for edited in slips.into_iter().take_while(|edited| edited.cost < below) {
         if trial.deadline().has_passed() {
             break;
         }

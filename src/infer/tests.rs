@@ -178,3 +178,121 @@ $$ \det(A - \lambda I) = \lambda^2 - (a + d) \lambda + a d - b c \tag{2} $$
     assert_eq!(role(&report, "I"), "the identity matrix of 2 rows");
     assert_eq!(equation(&report, "2").verdict, Verdict::Holds, "{:?}", equation(&report, "2").reason);
 }
+
+#[test]
+fn a_formula_whose_sides_are_printed_alike_says_nothing() {
+    let notes = r"$$ \mathbf{a}' = \mathbf{a} \cos\varphi + (\mathbf{n} \times \mathbf{a}) \sin\varphi \tag{1} $$
+With $\mathbf{n} \cdot \mathbf{n} = 1$ we have
+$$ \mathbf{n} \cdot \mathbf{a}' = (\mathbf{n} \cdot \mathbf{a}) \cos\varphi, \qquad \mathbf{n} \cdot \mathbf{a} = \mathbf{n} \cdot \mathbf{a} \tag{2} $$
+";
+    let report = report(notes);
+    let second = equation(&report, "2");
+    assert_eq!(second.verdict, Verdict::Undecided, "it does not hold: nothing is said");
+    assert!(!second.as_expected);
+}
+
+#[test]
+fn definite_integrals_are_judged() {
+    let notes = r"$$ C = \frac{Q}{U} \tag{1} $$
+$$ W = \int_0^Q \frac{q}{C} \, dq = \frac{Q^2}{2C} = \frac{1}{2} C U^2 \tag{2} $$
+With $\tau = R C$ the current is
+$$ I = \frac{U_0}{R} e^{-t/\tau} \tag{3} $$
+$$ \int_0^\infty R I^2 \, dt = \frac{U_0^2}{R} \int_0^\infty e^{-2t/\tau} \, dt = \frac{1}{2} C U_0^2 \tag{4} $$
+$$ \int_a^\infty \frac{dx}{x^2} = \frac{1}{a} \tag{5} $$
+";
+    let right = report(notes);
+    for label in ["2", "4"] {
+        let links = &equation(&right, label).links;
+        let verdicts: Vec<Verdict> = links.iter().map(|l| l.verdict).collect();
+        assert!(verdicts.iter().all(|v| matches!(v, Verdict::Holds | Verdict::Definition)), "{label}: {verdicts:?}");
+    }
+    assert!(right.equations.iter().all(|e| e.suspect.is_none()));
+    for (label, printed, wrong) in [
+        ("2", r"= \frac{Q^2}{2C} =", r"= \frac{Q^2}{C} ="),
+        ("4", r"\frac{1}{2} C U_0^2", r"\frac{1}{3} C U_0^2"),
+        ("4", r"\frac{U_0^2}{R} \int", r"\frac{R}{U_0^2} \int"),
+        ("5", r"\frac{dx}{x^2}", r"\frac{dx}{x^3}"),
+    ] {
+        assert_ne!(notes.replace(printed, wrong), notes);
+        let found = report(&notes.replace(printed, wrong));
+        let judged = equation(&found, label);
+        assert!(judged.links.iter().any(|l| l.verdict > Verdict::Definition) || judged.suspect.is_some(), "{label} {wrong}");
+    }
+    // Nothing says how F depends on x: it is not constant.
+    let hidden = report("$$ W = \\int_0^l F \\, dx = F l \\tag{1} $$\n\n$$ F = k x \\tag{2} $$\n");
+    assert_eq!(equation(&hidden, "1").verdict, Verdict::Undecided);
+}
+
+#[test]
+fn what_a_formula_in_the_prose_speaks_of_is_tried_on_it() {
+    let notes = r"$$ 1 - u^2 = \frac{(1 - w^2)(1 - v^2)}{(1 + v w)^2} \tag{1} $$
+With $\gamma_u = 1/\sqrt{1 - u^2}$, $\gamma_w = 1/\sqrt{1 - w^2}$ and $\gamma_v = 1/\sqrt{1 - v^2}$ the root of (1) reads
+$$ \gamma_u^2 = \gamma_v^2 \gamma_w^2 (1 + v w)^2 \tag{2} $$
+$$ \gamma_u \gamma_u = \gamma_v^2 \gamma_w^2 (1 - v w)^2 \tag{3} $$
+";
+    assert_eq!(equation(&report(notes), "2").verdict, Verdict::Holds);
+    assert_ne!(equation(&report(notes), "3").verdict, Verdict::Holds);
+    let defined = report(
+        r"$$ a = b + c \tag{1} $$
+With the ratio $k = b/a$ and $c = 2 b$,
+$$ k = \frac{1}{4} \tag{2} $$
+",
+    );
+    assert_ne!(equation(&defined, "2").verdict, Verdict::Holds, "it is a third");
+    let other = report("The rim moves with $v = \\omega r$.\n\n$$ v = \\omega R \\tag{1} $$\n");
+    assert!(equation(&other, "1").suspect.is_none(), "another radius is no misprint");
+}
+
+#[test]
+fn approximations_are_expansions_in_what_is_small() {
+    let notes = r"$$ f = f_0 \sqrt{\frac{1 - \beta}{1 + \beta}} \tag{1} $$
+$$ \frac{f}{f_0} \approx 1 - \beta + \frac{1}{2} \beta^2 \tag{2} $$
+$$ \sin\theta \approx \theta \tag{3} $$
+";
+    let right = report(notes);
+    for label in ["2", "3"] {
+        assert_eq!(equation(&right, label).verdict, Verdict::Asymptotic, "{:?}", equation(&right, label).reason);
+    }
+    let wrong = report(&notes.replace(r"\frac{1}{2} \beta^2", r"\beta^2"));
+    assert_ne!(equation(&wrong, "2").verdict, Verdict::Asymptotic);
+    assert!(equation(&wrong, "2").suspect.is_some());
+}
+
+#[test]
+fn e_is_a_charge_where_no_exponential_is_printed() {
+    let charge = "$$ F = e E \\tag{1} $$\n\n$$ m a = e E \\tag{2} $$\n";
+    assert_eq!(role(&report(charge), "e"), "a number");
+    let decay = "$$ y = e^{-x} \\tag{1} $$\n\n$$ z = e x \\tag{2} $$\n";
+    assert_eq!(role(&report(decay), "e"), "no e");
+    assert_eq!(role(&report("$$ y = x / e \\tag{1} $$\n"), "e"), "no e");
+}
+
+#[test]
+fn a_letter_before_a_bracket_is_a_factor_where_it_is_no_function() {
+    let notes = "$$ \\mathbf{F} = q (\\mathbf{E}) \\tag{1} $$\n\n$$ a = q b \\tag{2} $$\n";
+    assert_eq!(equation(&report(notes), "1").verdict, Verdict::Definition);
+    let function = report("$$ \\phi(r) = \\frac{Q}{r} \\tag{1} $$\n\n$$ E = -\\frac{d\\phi}{dr} = \\frac{Q}{r^2} \\tag{2} $$\n");
+    assert_eq!(equation(&function, "2").verdict, Verdict::Holds);
+}
+
+#[test]
+fn a_solution_may_stand_beside_what_follows_from_it() {
+    let notes = r"$$ L \frac{d^2 Q}{dt^2} + \frac{Q}{C} = 0 \tag{1} $$
+The charge swings with $\omega_0 = 1/\sqrt{L C}$,
+$$ Q = Q_0 \cos \omega_0 t, \qquad I = \frac{dQ}{dt} = -\omega_0 Q_0 \sin \omega_0 t \tag{2} $$
+";
+    assert_eq!(equation(&report(notes), "2").inferred.as_ref().unwrap().solves, ["1"]);
+    let wrong = report(&notes.replace(r"+ \frac{Q}{C} = 0", r"- \frac{Q}{C} = 0"));
+    assert!(equation(&wrong, "2").suspect.is_some(), "{:?}", equation(&wrong, "2").reason);
+}
+
+#[test]
+fn an_identity_that_lost_a_symbol_is_a_suspect() {
+    let notes = r"$$ \mathbf{a} \times (\mathbf{b} \times \mathbf{c}) = (\mathbf{a} \cdot \mathbf{c}) \mathbf{b} - (\mathbf{a} \cdot \mathbf{b}) \mathbf{c} \tag{1} $$
+";
+    assert_eq!(equation(&report(notes), "1").verdict, Verdict::Holds);
+    for wrong in [r"(\mathbf{a} \cdot \mathbf{c}) \mathbf{c}", r"(\mathbf{a} \cdot \mathbf{c})"] {
+        let found = report(&notes.replace(r"(\mathbf{a} \cdot \mathbf{c}) \mathbf{b}", wrong));
+        assert!(equation(&found, "1").suspect.is_some(), "{wrong}: {:?}", equation(&found, "1").reason);
+    }
+}

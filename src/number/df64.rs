@@ -5,7 +5,7 @@
 //! up to half of their digits (10¹⁶ units) within 10⁻³⁰ of their zeros; asin and acos lose them at ±1, acosh at 1; an
 //! integer power, which it takes by the logarithm, loses some 180 units; atan2 loses quotients that overflow.
 
-use super::{Df64, Elliptic, Func, Number, Operation, Real, decimal, elliptic, float, reduction};
+use super::{Df64, Elliptic, Func, Number, Operation, Real, decimal, elliptic, float, quadrature, reduction};
 use num_traits::FloatConst;
 
 const ONE: Df64 = Df64::ONE;
@@ -182,6 +182,9 @@ impl Number for Df64 {
     }
     fn set_elliptic(&mut self, f: Elliptic, x: &[&Self]) {
         *self = elliptic::double(f, x);
+    }
+    fn set_integral(&mut self, f: &mut dyn FnMut(&Self, &Self) -> Self) {
+        *self = quadrature::over_unit(self, f);
     }
     fn add_product(&mut self, a: &Self, b: &Self) {
         *self += *a * *b;

@@ -1,6 +1,6 @@
 //! Machine numbers, with the functions of the system's mathematical library.
 
-use super::{Elliptic, Func, Number, Operation, Real, decimal, elliptic};
+use super::{Elliptic, Func, Number, Operation, Real, decimal, elliptic, quadrature};
 use num_traits::{Float, pow::pow};
 
 /// aⁿ by squaring: at most |n| - 1 multiplications' roundings, and one division's where n is negative.
@@ -113,6 +113,9 @@ impl Number for f64 {
     }
     fn set_elliptic(&mut self, f: Elliptic, x: &[&Self]) {
         *self = elliptic::machine(f, x);
+    }
+    fn set_integral(&mut self, f: &mut dyn FnMut(&Self, &Self) -> Self) {
+        *self = quadrature::over_unit(self, f);
     }
     #[inline]
     fn add_product(&mut self, a: &Self, b: &Self) {

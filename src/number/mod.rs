@@ -110,6 +110,12 @@ pub trait Number: Clone + Debug + Send + Sync + 'static {
         let _ = (f, x);
         *self = self.like(f64::NAN);
     }
+    /// self = the integral from 0 to 1 of a function that is given x and 1 - x: see [`quadrature`]. Not finite where the
+    /// quadrature does not converge, and for numbers that have none.
+    fn set_integral(&mut self, f: &mut dyn FnMut(&Self, &Self) -> Self) {
+        let _ = f;
+        *self = self.like(f64::NAN);
+    }
     /// self = self + a b, rounded once or twice.
     fn add_product(&mut self, a: &Self, b: &Self) {
         *self = self.plus(&a.times(b));

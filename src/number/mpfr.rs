@@ -1,6 +1,6 @@
 //! Numbers of any precision: MPFR by the crate `rug`. Every operation is rounded correctly.
 
-use super::{Elliptic, Func, Number, Operation, Real, decimal, elliptic};
+use super::{Elliptic, Func, Number, Operation, Real, decimal, elliptic, quadrature};
 use rug::float::{Constant, Round};
 use rug::ops::{AssignRound, Pow};
 use rug::{Assign, Float, Rational};
@@ -138,6 +138,9 @@ impl Number for Mpfr {
     }
     fn set_elliptic(&mut self, f: Elliptic, x: &[&Self]) {
         *self = elliptic::any_precision(f, x);
+    }
+    fn set_integral(&mut self, f: &mut dyn FnMut(&Self, &Self) -> Self) {
+        *self = quadrature::over_unit(self, f);
     }
     fn add_product(&mut self, a: &Self, b: &Self) {
         let bits = self.0.prec().max(a.0.prec()).max(b.0.prec());

@@ -34,6 +34,8 @@ pub struct Integral<N> {
     pub error_log2: f64,
     /// How often the integrand was wanted.
     pub samples: usize,
+    /// The integral of the integrand's magnitude, roughly.
+    pub size: f64,
 }
 
 /// Halvings of the step that are enough for most integrands.
@@ -42,18 +44,41 @@ pub const LEVELS: u32 = 10;
 /// The coarsest step is 2^-this.
 const FIRST_LEVEL: u32 = 2;
 
+/// Halvings of the step for integrals within formulas, which are taken at many states.
+pub const UNIT_LEVELS: u32 = 8;
+
+/// The bits to which an integral must be known where it has no bound of its error beside it.
+const LEAST_BITS: f64 = 26.0;
+
+/// The integral from 0 to 1 of a function of x and 1 - x; not finite where it is not known to [`LEAST_BITS`].
+pub(super) fn over_unit<N: Real>(model: &N, f: &mut dyn FnMut(&N, &N) -> N) -> N {
+    let got = integrate(&model.like(0.0), &model.like(1.0), UNIT_LEVELS, |s| f(&s.above, &s.below));
+    if got.error_log2 <= got.size.log2() - LEAST_BITS { got.value } else { model.like(f64::NAN) }
+}
+
 /// The integral of `f` from `a` to `b`, both finite, with a step halved at most `levels` times.
 pub fn integrate<N: Real>(a: &N, b: &N, levels: u32, mut f: impl FnMut(&Sample<N>) -> N) -> Integral<N> {
+    integrate_within(a, b, levels, |s| (f(s), 0.0))
+}
+
+/// As [`integrate`], of a function that is known within bounds: its values with their absolute errors.
+pub fn integrate_within<N: Real>(
+    a: &N,
+    b: &N,
+    levels: u32,
+    mut f: impl FnMut(&Sample<N>) -> (N, f64),
+) -> Integral<N> {
     let cx = a.context();
     let rule = Rule { a, b, length: b.minus(a), pi: N::pi(&cx), bits: f64::from(N::precision_bits(&cx)) };
     let mut sums = Sums { value: a.like(0.0), size: 0.0, rounding: 0.0, ends: [Side::new(), Side::new()], samples: 0 };
     let mut differences: Vec<f64> = Vec::new();
     let mut value: Option<N> = None;
-    let (mut error, mut level) = (f64::INFINITY, FIRST_LEVEL);
+    let (mut error, mut level, mut size) = (f64::INFINITY, FIRST_LEVEL, 0.0);
     while level <= levels.clamp(FIRST_LEVEL + 2, 24) {
         rule.refine(level, &mut sums, &mut f);
         let h = f64::exp2(-f64::from(level));
         let next = sums.value.times(&a.like(h));
+        size = h * sums.size;
         if let Some(before) = &value {
             differences.push(next.minus(before).to_f64().abs());
             error = step_error(&differences) + h * sums.tails() + h * sums.rounding;
@@ -66,7 +91,7 @@ pub fn integrate<N: Real>(a: &N, b: &N, levels: u32, mut f: impl FnMut(&Sample<N
     }
     let value = value.unwrap_or_else(|| a.like(f64::NAN));
     let error_log2 = if value.is_finite() && !error.is_nan() { error.log2() } else { f64::INFINITY };
-    Integral { value, error_log2, samples: sums.samples }
+    Integral { value, error_log2, samples: sums.samples, size }
 }
 
 /// What the differences between steps let expect of the error of the last one: their last, or that which goes on as the
@@ -141,7 +166,7 @@ struct Rule<'l, N> {
 
 impl<N: Real> Rule<'_, N> {
     /// Adds the samples that are new at this level.
-    fn refine(&self, level: u32, sums: &mut Sums<N>, f: &mut impl FnMut(&Sample<N>) -> N) {
+    fn refine(&self, level: u32, sums: &mut Sums<N>, f: &mut impl FnMut(&Sample<N>) -> (N, f64)) {
         let h = f64::exp2(-f64::from(level));
         let first = level == FIRST_LEVEL;
         if first {
@@ -159,7 +184,7 @@ impl<N: Real> Rule<'_, N> {
     }
 
     /// Adds the term at ±t; whether there may be more beyond it.
-    fn add(&self, t: f64, side: usize, sums: &mut Sums<N>, f: &mut impl FnMut(&Sample<N>) -> N) -> bool {
+    fn add(&self, t: f64, side: usize, sums: &mut Sums<N>, f: &mut impl FnMut(&Sample<N>) -> (N, f64)) -> bool {
         let one = self.a.like(1.0);
         let at = self.a.like(t);
         let exponent = self.pi.times(&at.apply(Func::Sinh));
@@ -179,9 +204,11 @@ impl<N: Real> Rule<'_, N> {
             Sample { x: self.b.minus(&near), above: far, below: near }
         };
         sums.samples += 1;
-        let value = f(&sample);
-        if !value.is_finite() && depth > 0.5 * self.bits {
-            // So near to the end that its distance may have been rounded to nothing: the tail's estimate knows.
+        let (value, doubt) = f(&sample);
+        let known = value.is_finite() && weight.to_f64().abs() * doubt <= f64::exp2(-self.bits) * sums.size;
+        if !known && depth > 0.5 * self.bits {
+            // So near to the end that its distance may have been rounded to nothing, or where what is next to nothing is
+            // not known: the tail's estimate knows.
             sums.ends[side].last = sums.ends[side].last.min(t);
             return false;
         }
@@ -191,6 +218,7 @@ impl<N: Real> Rule<'_, N> {
         sums.size += size;
         // The term's own roundings (e^-depth loses as many units as the depth is large), and the sum's.
         sums.rounding += f64::exp2(-self.bits) * (size * (24.0 + 4.0 * depth) + 2.0 * sums.value.to_f64().abs());
+        sums.rounding += weight.to_f64().abs() * doubt;
         sums.ends[side].see(t, size);
         value.is_finite()
     }

@@ -7,7 +7,7 @@
 //! bound, as long as it has one at all. The bounds themselves are computed
 //! in machine numbers, and rounded up.
 
-use super::{Elliptic, Func, Number, Operation, Real, elliptic};
+use super::{Elliptic, Func, Number, Operation, Real, elliptic, quadrature};
 
 /// A value, and a bound of its error in units of its roundoff 2^-bits.
 #[derive(Clone, Debug, PartialEq)]
@@ -137,7 +137,10 @@ impl<N: Real> Tracked<N> {
             Func::Sinh | Func::Cosh => high.cosh() * 1.001,
             Func::Tanh => 1.001 / low.cosh().powi(2),
             Func::Exp => {
-                magnitude(value) * (1.0 + 2.0 * N::rounding(Operation::Call(f)) * f64::EPSILON) * radius.exp() * 1.001
+                let slope =
+                    magnitude(value) * (1.0 + 2.0 * N::rounding(Operation::Call(f)) * f64::EPSILON) * radius.exp() * 1.001;
+                // Far below zero the exponential is nothing, however large the operand's error.
+                slope.min((x + radius).exp() * 1.001 + f64::MIN_POSITIVE)
             }
             Func::Ln if low > 0.0 => 1.0 / low,
             Func::Abs => 1.0,
@@ -352,6 +355,20 @@ impl<N: Real> Number for Tracked<N> {
         let (value, propagated) = N::elliptic_within(f, &values, &errors);
         self.value = value;
         self.close(propagated, elliptic::ROUNDING);
+    }
+    fn set_integral(&mut self, f: &mut dyn FnMut(&Self, &Self) -> Self) {
+        // The nodes are rounded: e^-depth has lost as many units as the depth is large.
+        let node = |x: &N| {
+            let depth = -x.log2_abs() * std::f64::consts::LN_2;
+            Tracked { value: x.clone(), error: magnitude(x) * (24.0 + 4.0 * depth.max(0.0)) }
+        };
+        let (from, to) = (self.value.like(0.0), self.value.like(1.0));
+        let got = quadrature::integrate_within(&from, &to, quadrature::UNIT_LEVELS, |s| {
+            let value = f(&node(&s.above), &node(&s.below));
+            let radius = value.radius();
+            (value.value, radius)
+        });
+        *self = Tracked::with_error(got.value, got.error_log2);
     }
     fn set_sin_cos(sin: &mut Self, cos: &mut Self, a: &Self) {
         N::set_sin_cos(&mut sin.value, &mut cos.value, &a.value);

@@ -73,9 +73,12 @@ impl Elaborator<'_> {
     pub(super) fn time_derivative(&mut self, value: &Value, n: u32) -> Value {
         let mut value = value.clone();
         for _ in 0..n {
-            let graph = &mut self.world.graph;
-            let t = graph.find("t");
-            value = value.map(&mut |e| graph.time_derivative(e, t));
+            let t = self.world.graph.find("t");
+            value = value.map(&mut |e| match self.world.is_within_integral(e) {
+                // Over the time that it is integrated over, and not over this one: not known, so that it has no value.
+                true => self.world.graph.ratio(1, 0),
+                false => self.world.graph.time_derivative(e, t),
+            });
         }
         value
     }

@@ -186,6 +186,9 @@ impl Elaborator<'_> {
         }
         match &head.kind {
             Kind::BigOp(op) => {
+                if let Some((integral, used)) = self.definite(node, &items[1..])? {
+                    return Ok((integral, used + 1));
+                }
                 let reach = self.reach(head, node, &items[1..]);
                 return self.big_operator(*op, node, &items[1..=reach]).map(|t| (t, reach + 1));
             }

@@ -15,6 +15,7 @@ mod calculus;
 mod complex;
 mod counting;
 mod cyclic;
+mod definite;
 mod elaborate;
 mod element;
 mod elliptic;

@@ -81,6 +81,8 @@ pub struct World {
     pub(super) history: History,
     /// What is equal at the moment that is spoken of: a symbol and its value there.
     pub moment: Vec<(Expr, Expr)>,
+    /// The variables of definite integrals.
+    pub(super) integrated: std::collections::BTreeSet<String>,
     /// What is positive where the sums that stand for means are precise.
     pub(super) precise: Vec<Expr>,
     steps: usize,

@@ -217,7 +217,7 @@ impl<'w> Walk<'w> {
                     self.of(rate)?.over(&self.time.to_the((order, 1))?)
                 }
             },
-            Node::Neg(a) | Node::Call(Func::Abs, a) => self.of(a),
+            Node::Neg(a) | Node::Call(Func::Abs, a) | Node::Integral(a) => self.of(a),
             Node::Add(a, b) | Node::Sub(a, b) => {
                 self.imply(self.of(a), self.of(b));
                 self.of(a).or(self.of(b))

@@ -88,7 +88,7 @@ fn written(world: &World, e: Expr, depth: usize) -> Option<(String, Binding)> {
             (format!(r"{}({}, {})", elliptic(f)?, of(u)?.0, of(k)?.0), Binding::Function)
         }
         Node::Elliptic(f, [k, ..]) if f.arity() == 1 => (format!("{}({})", elliptic(f)?, of(k)?.0), Binding::Function),
-        Node::Elliptic(..) | Node::Atan2(..) => return None,
+        Node::Elliptic(..) | Node::Atan2(..) | Node::Integral(_) => return None,
     })
 }
 

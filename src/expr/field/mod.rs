@@ -227,7 +227,7 @@ fn on_point(f: Elliptic, (sn, cn): (Element, Element), k: Option<Element>) -> Op
 
 fn is_meaningless(node: &Node) -> bool {
     match node {
-        Node::E | Node::Pow(..) | Node::Atan2(..) | Node::Elliptic(..) => true,
+        Node::E | Node::Pow(..) | Node::Atan2(..) | Node::Elliptic(..) | Node::Integral(_) => true,
         Node::Call(f, _) => !matches!(f, Func::Sin | Func::Cos | Func::Tan),
         _ => false,
     }
@@ -239,6 +239,7 @@ fn word(node: &Node) -> &'static str {
         Node::Pow(..) => "a power with a variable exponent",
         Node::Atan2(..) => "atan2",
         Node::Elliptic(..) => "an elliptic function",
+        Node::Integral(_) => "an integral",
         Node::E => "e",
         _ => "π",
     }

@@ -204,6 +204,7 @@ impl Compiler<'_> {
             Node::Call(f, a) => self.call(f, at(a)),
             Node::Atan2(y, x) => self.angle(at(y), at(x)),
             Node::Elliptic(f, _) => return Err(NoRecurrence { what: format!("{f:?}") }),
+            Node::Integral(_) => return Err(NoRecurrence { what: "an integral".into() }),
             // Constants have their slots.
             Node::Rational(..) | Node::Pi | Node::E => return Ok(()),
         };
