@@ -46,6 +46,11 @@ pub(super) const PATTERNS: &[(&str, &str)] = &[
     ("use the LaTeX macro for it, or put it in `\\text{a}`", "LaTeX のマクロを使うか、`\\text{a}` に入れてください"),
     ("unknown macro `{a}`", "マクロ `{a}` は未知です"),
     ("did you mean `{a}`?", "`{a}` の間違いではありませんか"),
+    ("did you mean {a}?", "{a} の間違いではありませんか"),
+    (
+        "files are not read within a display: write its text here, or the whole display there",
+        "式の中ではファイルを読み込めません。内容をここに書くか、式全体をそのファイルに移してください",
+    ),
     ("write `{a}` if it is a function", "関数であれば `{a}` と書いてください"),
     ("write {a} instead", "代わりに {a} と書いてください"),
     ("write {a}", "{a} と書いてください"),
