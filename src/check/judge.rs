@@ -5,7 +5,7 @@ use std::time::Instant;
 
 use crate::document::Problem;
 use crate::expr::Deadline;
-use crate::latex::ast::{Kind, Node, Rel};
+use crate::latex::ast::{Delim, Kind, Node, Rel};
 use crate::semantics::{self, Clause, ErrorKind, Scope, Side, Statement};
 
 use super::book::{Book, Entry, Formula, Unclear, Version};
@@ -286,6 +286,7 @@ pub(super) fn defines(book: &Book, index: usize, clause: &Clause) -> bool {
     let premises = entry.wheres(None).into_iter().chain(&entry.scope.assume);
     let premises: Vec<Formula> = premises.map(|p| Formula::new(&p.value)).collect();
     let new_name = |node: &Node| {
+        let node = without_arguments(&entry.scope, node);
         let pattern = crate::semantics::pattern_of(&entry.scope, node);
         entry.scope.get(&pattern).is_some_and(crate::semantics::Entry::is_free)
             && !book.mentioned_before(index, &pattern)
@@ -313,6 +314,15 @@ pub(super) fn defines(book: &Book, index: usize, clause: &Clause) -> bool {
     };
     let approximation = entry.annotation().is_some_and(|a| a.small.is_some());
     !clause.continued && !approximation && (fresh(&clause.lhs) || fresh(rhs)) && apart(&clause.lhs, rhs)
+}
+
+/// The name, where it stands before the arguments that it is declared to have: φ(r) is φ.
+fn without_arguments<'n>(scope: &Scope, node: &'n Node) -> &'n Node {
+    let Kind::Juxt(factors) = &node.kind else { return node };
+    let [name, Node { kind: Kind::Group { open: Delim::Paren, body, .. }, .. }] = factors.as_slice() else { return node };
+    let entry = scope.get(&crate::semantics::pattern_of(scope, name));
+    let is_it = |e: &crate::semantics::Entry| !e.arguments.is_empty() && e.arguments.join(",") == semantics::spelling(body);
+    if entry.is_some_and(is_it) { name } else { node }
 }
 
 /// Judges a link, and says where in the file that lies which it lacks.

@@ -226,6 +226,12 @@ impl Desk<'_> {
         if self.is_solution() { fail >= SOLUTION_FAILS } else { 2 * pass <= fail }
     }
 
+    /// Whether the link holds on premises, be it that others in its place would, too.
+    pub fn stands(&mut self, basis: &Basis) -> bool {
+        self.lay(basis);
+        self.holds(&Options { evidence: false, ..self.options.clone() }) && !self.vanishes()
+    }
+
     /// The first basis from which the link follows, made as small as it can be and left on the desk.
     pub fn search(&mut self, bases: &[Basis]) -> Option<Basis> {
         self.blurred.set(false);

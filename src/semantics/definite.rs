@@ -51,6 +51,10 @@ impl Elaborator<'_> {
         if !self.particles(&factors_of(&rest[..integrand.used])).is_empty() || self.is_declared(&declared) {
             return Ok(None);
         }
+        // Along the motion t needs no declaration.
+        if spelling(to) == "t" && !self.is_declared(to) && self.has_rate(&integrand.variable) {
+            return Ok(None);
+        }
         let (from, to) = (self.limit(from)?, self.limit(to)?);
         if self.is_along_motion(&integrand.variable, &to) {
             return Ok(None);
@@ -167,15 +171,17 @@ impl Elaborator<'_> {
     /// Whether both the variable and the upper limit move.
     fn is_along_motion(&mut self, variable: &Node, to: &Limit) -> bool {
         let Limit::Finite(end) = to else { return false };
-        let is_time = spelling(variable) == "t" || self.is_time(variable);
+        self.has_rate(variable) && self.world.moves(&[*end])
+    }
+
+    /// Whether a variable is the time, or moves.
+    fn has_rate(&mut self, variable: &Node) -> bool {
+        if spelling(variable) == "t" || self.is_time(variable) {
+            return true;
+        }
         // A component of a vector that moves moves.
-        let components = match is_time {
-            true => Vec::new(),
-            false => self.value(variable).map(|v| v.value.components()).unwrap_or_default(),
-        };
-        let graph = &self.world.graph;
-        let moves = |es: &[Expr]| graph.symbols(es).iter().any(|s| graph.info(*s).of_t || graph.info(*s).name == "t");
-        (is_time || moves(&components)) && moves(&[*end])
+        let components = self.value(variable).map(|v| v.value.components()).unwrap_or_default();
+        self.world.moves(&components)
     }
 
     fn negative(&mut self, typed: Typed) -> Typed {
@@ -191,6 +197,11 @@ impl World {
         let symbol = self.symbol(name, false, facts);
         self.graph.bind(symbol, bound);
         self.graph.sym(symbol)
+    }
+
+    fn moves(&self, es: &[Expr]) -> bool {
+        let graph = &self.graph;
+        graph.symbols(es).iter().any(|s| graph.info(*s).of_t || graph.info(*s).name == "t")
     }
 
     /// The variable of an integral that some of these expressions speak of as of another quantity, if there is one: what is
