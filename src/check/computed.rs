@@ -153,7 +153,10 @@ fn begun(source: &Source) -> World {
 
 /// The formula with the premises that restrict it.
 fn finished(source: &Source, mut world: World, outputs: Vec<Expr>, latex: String) -> Option<Computed> {
-    if !is_formula(&world, &outputs) || outputs.iter().any(|e| world.remembers(*e)) || world.graph.has_integrals(&outputs) {
+    if !is_formula(&world, &outputs)
+        || outputs.iter().any(|e| world.remembers(*e))
+        || world.graph.has_integrals(&outputs)
+    {
         return None;
     }
     // Where premises cannot be used, the ranges are all that is known.

@@ -202,7 +202,8 @@ pub(super) fn judge_statement(source: &Source, statement: &Statement, options: &
             if link.verdict == Verdict::Definition {
                 known.push(Clause { rel: Rel::Eq, ..clause.clone() });
                 links.push(link);
-            } else if equality && kind(book, index) == "law" && link.verdict != Verdict::Holds && !says_nothing(clause) {
+            } else if equality && kind(book, index) == "law" && link.verdict != Verdict::Holds && !says_nothing(clause)
+            {
                 links.push(law::taken(link, source, clause, &known, options));
                 known.push(clause.clone());
             } else {
@@ -319,9 +320,12 @@ pub(super) fn defines(book: &Book, index: usize, clause: &Clause) -> bool {
 /// The name, where it stands before the arguments that it is declared to have: φ(r) is φ.
 fn without_arguments<'n>(scope: &Scope, node: &'n Node) -> &'n Node {
     let Kind::Juxt(factors) = &node.kind else { return node };
-    let [name, Node { kind: Kind::Group { open: Delim::Paren, body, .. }, .. }] = factors.as_slice() else { return node };
+    let [name, Node { kind: Kind::Group { open: Delim::Paren, body, .. }, .. }] = factors.as_slice() else {
+        return node;
+    };
     let entry = scope.get(&crate::semantics::pattern_of(scope, name));
-    let is_it = |e: &crate::semantics::Entry| !e.arguments.is_empty() && e.arguments.join(",") == semantics::spelling(body);
+    let is_it =
+        |e: &crate::semantics::Entry| !e.arguments.is_empty() && e.arguments.join(",") == semantics::spelling(body);
     if entry.is_some_and(is_it) { name } else { node }
 }
 
@@ -391,7 +395,8 @@ const SAYS_NOTHING: &str = "both sides are printed alike, so that it says nothin
 /// Whether the sides of a link are printed alike.
 pub fn says_nothing(clause: &Clause) -> bool {
     let equality = matches!(clause.rel, Rel::Eq | Rel::Equiv);
-    equality && matches!(&clause.rhs, Side::Node(rhs) if crate::latex::to_latex(rhs) == crate::latex::to_latex(&clause.lhs))
+    equality
+        && matches!(&clause.rhs, Side::Node(rhs) if crate::latex::to_latex(rhs) == crate::latex::to_latex(&clause.lhs))
 }
 
 /// Evaluates a claim that is made by a link as `printed`.
@@ -421,7 +426,8 @@ fn by_relation(
     match (claim.small, claim.rel) {
         (Some(_), Rel::Eq | Rel::Equiv) if printed.rel != Rel::Eq || !told => {
             let claimed = entry.annotation().and_then(|a| a.order);
-            let is_zero = |node: &Node| matches!(crate::latex::to_latex(node).as_str(), "0" | "\\mathbf{0}" | "\\vec{0}");
+            let is_zero =
+                |node: &Node| matches!(crate::latex::to_latex(node).as_str(), "0" | "\\mathbf{0}" | "\\vec{0}");
             let zero = is_zero(&printed.lhs) || matches!(&printed.rhs, Side::Node(n) if is_zero(n));
             let measure = match printed.rel {
                 Rel::To => Measure::Absolute,

@@ -99,7 +99,9 @@ impl Node {
         let none = Expr(0);
         let (count, operands) = match *self {
             Node::Rational(..) | Node::Pi | Node::E | Node::Symbol(_) => (0, [none; 4]),
-            Node::Neg(a) | Node::PowI(a, _) | Node::Sqrt(a) | Node::Call(_, a) | Node::Integral(a) => (1, [a, none, none, none]),
+            Node::Neg(a) | Node::PowI(a, _) | Node::Sqrt(a) | Node::Call(_, a) | Node::Integral(a) => {
+                (1, [a, none, none, none])
+            }
             Node::Add(a, b)
             | Node::Sub(a, b)
             | Node::Mul(a, b)

@@ -186,7 +186,9 @@ mod tests {
             let e = g.integral(integrand);
             assert!(!value::<f64>(&g, e, 1.0).is_finite());
             let precise: Tracked<Df64> = value(&g, e, 1.0);
-            assert!(!precise.is_finite() || precise.is_zero_within() || precise.error_log2() > precise.log2_abs() - 20.0);
+            assert!(
+                !precise.is_finite() || precise.is_zero_within() || precise.error_log2() > precise.log2_abs() - 20.0
+            );
         }
         let e = g.div(x, square);
         let e = g.integral(e);

@@ -278,7 +278,11 @@ pub fn names(node: &Node, found: &mut dyn FnMut(String)) {
         }
         Kind::Scripts { base, sup: Some(sup), primes, sub: None } => {
             let bare = Kind::Scripts { base: base.clone(), primes: *primes, sub: None, sup: None };
-            if *primes > 0 { names(&Node::new(bare, node.span.clone()), found) } else { names(base, found) }
+            if *primes > 0 {
+                names(&Node::new(bare, node.span.clone()), found)
+            } else {
+                names(base, found)
+            }
             names(sup, found);
         }
         _ if is_name(node) => found(spelling(node)),

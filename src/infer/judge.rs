@@ -63,7 +63,8 @@ impl Ground {
         let clauses = book.statement(index, Version::Printed).map_or_else(|_| Vec::new(), |s| s.clauses);
         let is_open = |k: &usize| {
             let (link, clause) = (&first.links[*k], clauses.get(*k));
-            let spoken = || link.verdict == Verdict::Definition && clause.is_some_and(|c| self.is_spoken_of(book, index, c));
+            let spoken =
+                || link.verdict == Verdict::Definition && clause.is_some_and(|c| self.is_spoken_of(book, index, c));
             fails(link) || clause.is_some_and(check::says_nothing) || spoken()
         };
         let failing: Vec<usize> = (0..first.links.len()).filter(is_open).collect();
@@ -108,7 +109,8 @@ impl Ground {
         failing: &[usize],
         options: &Options,
     ) -> Judgement {
-        let mut desk = Desk { book, index, link: 0, taken: Vec::new(), all: &self.candidates, options, blurred: Cell::new(false) };
+        let mut desk =
+            Desk { book, index, link: 0, taken: Vec::new(), all: &self.candidates, options, blurred: Cell::new(false) };
         let clauses = desk.clauses();
         let (mut open, mut clear) = (Vec::new(), Vec::new());
         for link in failing {
@@ -151,7 +153,8 @@ impl Ground {
                 && next.is_none_or(|next| c.span.start < next)
                 && !own.contains(&c.span.start)
         };
-        let is_new = |name: &str| book.entries[index].mentions.contains_key(name) && !book.mentioned_before(index, name);
+        let is_new =
+            |name: &str| book.entries[index].mentions.contains_key(name) && !book.mentioned_before(index, name);
         let names = [Some(&clause.lhs), right(clause)].into_iter().flatten().map(spelling);
         let names: Vec<String> = names.filter(|name| !name.is_empty() && is_new(name)).collect();
         self.candidates.iter().filter(usable).any(|c| names.iter().any(|name| c.symbols.contains(name)))
@@ -174,7 +177,8 @@ impl Ground {
 
     /// Shapes that do not meet: those of a wrong guess, or of an identity that has lost something.
     fn misshapen(&self, book: &mut Book, index: usize, first: Judgement, options: &Options) -> Judgement {
-        let mut desk = Desk { book, index, link: 0, taken: Vec::new(), all: &self.candidates, options, blurred: Cell::new(false) };
+        let mut desk =
+            Desk { book, index, link: 0, taken: Vec::new(), all: &self.candidates, options, blurred: Cell::new(false) };
         let shapes = (0..first.links.len()).filter(|k| first.links[*k].strength == Some(Strength::Shape));
         let found = shapes.collect::<Vec<_>>().into_iter().find_map(|link| {
             desk.link = link;

@@ -32,7 +32,8 @@ fn bare(node: &Node, found: &mut BTreeSet<String>) {
         return node.children().into_iter().for_each(|child| bare(child, found));
     };
     for (k, factor) in factors.iter().enumerate() {
-        let before_bracket = matches!(factors.get(k + 1), Some(Node { kind: Kind::Group { open: Delim::Paren, .. }, .. }));
+        let before_bracket =
+            matches!(factors.get(k + 1), Some(Node { kind: Kind::Group { open: Delim::Paren, .. }, .. }));
         if !(before_bracket && is_name(factor)) {
             bare(factor, found);
         }

@@ -34,8 +34,15 @@ struct Small {
 
 impl Ground {
     /// The judgement on an approximation, where something can be said of it.
-    pub(super) fn near(&self, book: &mut Book, index: usize, first: &Judgement, options: &Options) -> Option<Judgement> {
-        let mut desk = Desk { book, index, link: 0, taken: Vec::new(), all: &self.candidates, options, blurred: Cell::new(false) };
+    pub(super) fn near(
+        &self,
+        book: &mut Book,
+        index: usize,
+        first: &Judgement,
+        options: &Options,
+    ) -> Option<Judgement> {
+        let mut desk =
+            Desk { book, index, link: 0, taken: Vec::new(), all: &self.candidates, options, blurred: Cell::new(false) };
         let clauses = desk.clauses();
         let [clause] = clauses.as_slice() else { return None };
         let Side::Node(rhs) = clause.rhs.clone() else { return None };
@@ -77,7 +84,8 @@ impl Desk<'_> {
 /// The symbols in which a formula is a polynomial, those with the most terms first.
 fn small(scope: &Scope, formula: &Node) -> Vec<Small> {
     let mut world = World::new();
-    let Ok(Value::Scalar(e)) = Elaborator::new(&mut world, scope, Vec::new(), true).value(formula).map(|t| t.value) else {
+    let Ok(Value::Scalar(e)) = Elaborator::new(&mut world, scope, Vec::new(), true).value(formula).map(|t| t.value)
+    else {
         return Vec::new();
     };
     let symbols = world.graph.symbols(&[e]);

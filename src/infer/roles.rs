@@ -14,8 +14,8 @@ use crate::semantics::{Clause, Error, ErrorKind, Scope, World, understand};
 
 use super::candidates::inline;
 use super::evidence::Evidence;
-use super::letters::{bare_names, first_e, letter_e, may_be_factor};
 use super::formulas;
+use super::letters::{bare_names, first_e, letter_e, may_be_factor};
 use super::reshape;
 
 /// The values that an index is tried with.

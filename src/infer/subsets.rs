@@ -98,7 +98,8 @@ fn eliminate(target: &Spoken, premises: &[&Candidate]) -> bool {
             symbols.difference(&target.symbols).for_each(|s| *count.entry(s).or_insert(0) += 1);
         }
         let own = |symbols: &BTreeSet<String>| symbols.iter().filter(|s| count.get(s.as_str()) == Some(&1)).count();
-        let makes_room = |part: &(usize, &(BTreeSet<String>, usize))| strangers(&part) > 0 && own(&part.1.0) >= part.1.1;
+        let makes_room =
+            |part: &(usize, &(BTreeSet<String>, usize))| strangers(&part) > 0 && own(&part.1.0) >= part.1.1;
         match statements.iter().position(makes_room) {
             Some(k) => drop(statements.remove(k)),
             None => {

@@ -55,7 +55,10 @@ fn edits(node: &Node, name: &Node, scope: &Scope) -> Vec<(Node, String)> {
     match &node.kind {
         Kind::Juxt(factors) => {
             let factors = factors.iter().chain([name]).cloned().collect();
-            vec![(Node::new(Kind::Juxt(factors), node.span.clone()), format!("the factor `{other}` put behind `{own}`"))]
+            vec![(
+                Node::new(Kind::Juxt(factors), node.span.clone()),
+                format!("the factor `{other}` put behind `{own}`"),
+            )]
         }
         Kind::Group { open: Delim::Paren, close, body } if !matches!(body.kind, Kind::Chain { .. } | Kind::List(_)) => {
             let first = match &body.kind {

@@ -216,7 +216,10 @@ $$ \int_a^\infty \frac{dx}{x^2} = \frac{1}{a} \tag{5} $$
         assert_ne!(notes.replace(printed, wrong), notes);
         let found = report(&notes.replace(printed, wrong));
         let judged = equation(&found, label);
-        assert!(judged.links.iter().any(|l| l.verdict > Verdict::Definition) || judged.suspect.is_some(), "{label} {wrong}");
+        assert!(
+            judged.links.iter().any(|l| l.verdict > Verdict::Definition) || judged.suspect.is_some(),
+            "{label} {wrong}"
+        );
     }
     // Nothing says how F depends on x: it is not constant.
     let hidden = report("$$ W = \\int_0^l F \\, dx = F l \\tag{1} $$\n\n$$ F = k x \\tag{2} $$\n");
@@ -271,7 +274,8 @@ fn e_is_a_charge_where_no_exponential_is_printed() {
 fn a_letter_before_a_bracket_is_a_factor_where_it_is_no_function() {
     let notes = "$$ \\mathbf{F} = q (\\mathbf{E}) \\tag{1} $$\n\n$$ a = q b \\tag{2} $$\n";
     assert_eq!(equation(&report(notes), "1").verdict, Verdict::Definition);
-    let function = report("$$ \\phi(r) = \\frac{Q}{r} \\tag{1} $$\n\n$$ E = -\\frac{d\\phi}{dr} = \\frac{Q}{r^2} \\tag{2} $$\n");
+    let function =
+        report("$$ \\phi(r) = \\frac{Q}{r} \\tag{1} $$\n\n$$ E = -\\frac{d\\phi}{dr} = \\frac{Q}{r^2} \\tag{2} $$\n");
     assert_eq!(equation(&function, "2").verdict, Verdict::Holds);
 }
 

@@ -62,12 +62,7 @@ pub fn integrate<N: Real>(a: &N, b: &N, levels: u32, mut f: impl FnMut(&Sample<N
 }
 
 /// As [`integrate`], of a function that is known within bounds: its values with their absolute errors.
-pub fn integrate_within<N: Real>(
-    a: &N,
-    b: &N,
-    levels: u32,
-    mut f: impl FnMut(&Sample<N>) -> (N, f64),
-) -> Integral<N> {
+pub fn integrate_within<N: Real>(a: &N, b: &N, levels: u32, mut f: impl FnMut(&Sample<N>) -> (N, f64)) -> Integral<N> {
     let cx = a.context();
     let rule = Rule { a, b, length: b.minus(a), pi: N::pi(&cx), bits: f64::from(N::precision_bits(&cx)) };
     let mut sums = Sums { value: a.like(0.0), size: 0.0, rounding: 0.0, ends: [Side::new(), Side::new()], samples: 0 };

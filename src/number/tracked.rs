@@ -137,8 +137,10 @@ impl<N: Real> Tracked<N> {
             Func::Sinh | Func::Cosh => high.cosh() * 1.001,
             Func::Tanh => 1.001 / low.cosh().powi(2),
             Func::Exp => {
-                let slope =
-                    magnitude(value) * (1.0 + 2.0 * N::rounding(Operation::Call(f)) * f64::EPSILON) * radius.exp() * 1.001;
+                let slope = magnitude(value)
+                    * (1.0 + 2.0 * N::rounding(Operation::Call(f)) * f64::EPSILON)
+                    * radius.exp()
+                    * 1.001;
                 // Far below zero the exponential is nothing, however large the operand's error.
                 slope.min((x + radius).exp() * 1.001 + f64::MIN_POSITIVE)
             }

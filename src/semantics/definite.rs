@@ -47,7 +47,8 @@ impl Elaborator<'_> {
             return Ok(None);
         }
         let Some(integrand) = integrand(rest) else { return Ok(None) };
-        let declared = Node::new(Kind::Juxt(vec![letter("d", &sign.span), integrand.variable.clone()]), sign.span.clone());
+        let declared =
+            Node::new(Kind::Juxt(vec![letter("d", &sign.span), integrand.variable.clone()]), sign.span.clone());
         if !self.particles(&factors_of(&rest[..integrand.used])).is_empty() || self.is_declared(&declared) {
             return Ok(None);
         }
@@ -367,9 +368,12 @@ mod tests {
 
     #[test]
     fn what_has_no_value_has_none() {
-        for integral in
-            [r"\int_0^\infty x \, dx", r"\int_{-\infty}^\infty x \, dx", r"\int_0^1 \frac{dx}{x}", r"\int_{-1}^2 \frac{dx}{x}"]
-        {
+        for integral in [
+            r"\int_0^\infty x \, dx",
+            r"\int_{-\infty}^\infty x \, dx",
+            r"\int_0^1 \frac{dx}{x}",
+            r"\int_{-1}^2 \frac{dx}{x}",
+        ] {
             assert!(!both(integral, "1")[0].is_finite(), "{integral}");
         }
     }
