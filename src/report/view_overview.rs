@@ -168,17 +168,10 @@ impl Drawn<'_> {
             _ => "row fails",
         };
         let (y, base) = (k as f64 * ROW, (k as f64 + 0.5) * ROW + 4.5);
-        // Writing to a string cannot fail.
-        let _ = write!(
-            svg,
-            "<a class=\"{class}\" href=\"#{anchor}\" aria-label=\"{}\"><rect x=\"4\" y=\"{}\" width=\"{}\" height=\"{}\" rx=\"5\"/><circle cx=\"0\" cy=\"{}\" r=\"5\"/>",
-            escape(&self.spoken(k)),
-            short(y + 2.0),
-            short(width - 8.0),
-            short(ROW - 4.0),
-            short(y + ROW / 2.0),
-        );
+        // The numbers stand behind the link: it is named by the title, and says the numbers in words.
+        svg.push_str("<g aria-hidden=\"true\">");
         let mut column = |class: &str, x: f64, text: String| {
+            // Writing to a string cannot fail.
             let _ = write!(svg, "<text class=\"{class}\" x=\"{}\" y=\"{}\">{text}</text>", short(x), short(base));
         };
         column("number", COLUMNS[0], equations.to_string());
@@ -188,6 +181,15 @@ impl Drawn<'_> {
         if endangered > 0 {
             column("number threatened", COLUMNS[2], format!("⚠ {endangered}"));
         }
+        let _ = write!(
+            svg,
+            "</g><a class=\"{class}\" href=\"#{anchor}\" aria-label=\"{}\"><rect x=\"4\" y=\"{}\" width=\"{}\" height=\"{}\" rx=\"5\"/><circle cx=\"0\" cy=\"{}\" r=\"5\"/>",
+            escape(&self.spoken(k)),
+            short(y + 2.0),
+            short(width - 8.0),
+            short(ROW - 4.0),
+            short(y + ROW / 2.0),
+        );
         let _ = write!(
             svg,
             "<text class=\"title\"{lang} x=\"{}\" y=\"{}\">{}</text></a>",
@@ -203,7 +205,7 @@ impl Drawn<'_> {
         let mut text = with(
             self.w.map_spoken_section,
             &[
-                ("section", &self.sections[k].title),
+                ("section", &title(&self.sections[k].title).0),
                 ("equations", &count(self.w.lead_equations, equations)),
                 ("failing", &failing),
                 ("endangered", &endangered),
