@@ -2,11 +2,10 @@ use std::path::Path;
 
 use super::*;
 use crate::document;
-#[cfg(not(feature = "rug"))]
-use crate::report::Language;
 use crate::report::Options;
-use crate::report::stability::table;
 use crate::report::stability::{html, json};
+#[cfg(not(feature = "rug"))]
+use crate::report::{Language, stability::table};
 
 /// Notes with a planted cancellation, an ill-conditioned difference and a harmless product.
 const NOTES: &str = "<!-- kenzan\n[symbols]\n'x' = { range = [0.0, 1.0] }\n'y, z' = { range = [1.0, 2.0] }\n-->\n\n\
