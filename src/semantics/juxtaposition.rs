@@ -290,7 +290,10 @@ impl Elaborator<'_> {
             BigOp::Sum | BigOp::Product => {}
             BigOp::Integral | BigOp::DoubleIntegral if !self.particles(&factors_of(rest)).is_empty() => {}
             BigOp::Integral => return self.integral(sub, sup, rest, &node.span),
-            _ => return Err(Error::unsupported("integrals over areas are not evaluated yet", &node.span)),
+            _ => {
+                let what = "integrals along lines and over areas are not evaluated yet";
+                return Err(Error::unsupported(what, &node.span).with_help(super::motion::UNTIL_THEN));
+            }
         }
         let ranges = match op {
             BigOp::Sum | BigOp::Product => self.index_values(sub, sup, rest, &node.span)?,

@@ -182,6 +182,10 @@ impl World {
     }
 }
 
+/// What to do about an integral that is not evaluated.
+pub(super) const UNTIL_THEN: &str =
+    "until then say what it comes to under `where` of the equations that rest on it, and here expect = \"undecided\"";
+
 impl Elaborator<'_> {
     /// `\int` before what it integrates, along the motion: `\int_0^t F\,dt`, `\int \vec{f} \cdot d\vec{r}`.
     pub(super) fn integral(
@@ -251,8 +255,8 @@ impl Elaborator<'_> {
         let end = to.map(|to| self.value(to)).transpose()?;
         let symbols = end.map(|end| self.world.graph.symbols(&end.value.components())).unwrap_or_default();
         if !symbols.iter().any(|s| self.world.graph.info(*s).of_t) {
-            let help = "until then say what it comes to under `where` of the equations that rest on it, and here expect = \"undecided\"";
-            return Err(Error::unsupported("only integrals along the motion are evaluated yet", span).with_help(help));
+            let what = "only integrals between limits and along the motion are evaluated yet";
+            return Err(Error::unsupported(what, span).with_help(UNTIL_THEN));
         }
         let node = |kind| Box::new(Node::new(kind, span.clone()));
         let (base, zero) = (node(Kind::Symbol("t".into())), node(Kind::Number("0".into())));

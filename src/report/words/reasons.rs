@@ -146,6 +146,10 @@ fn places<'t>(pattern: &'static str, text: &'t str) -> Option<Vec<(&'static str,
         if quoted.is_some_and(|quote| rest[..end].contains(quote)) {
             return None;
         }
+        // A number is one word; what follows it belongs to another sentence.
+        if matches!(name, "n" | "m") && rest[..end].contains("; ") {
+            return None;
+        }
         found.push((name, &rest[..end]));
         (before, rest) = (literal, &rest[end + literal.len()..]);
     }

@@ -70,10 +70,6 @@ pub(super) const PATTERNS: &[(&str, &str)] = &[
         "\\DeclareSIUnit says `{a}`: say it in units that are known, as in \\km\\per\\hour",
         "\\DeclareSIUnit の定義は `{a}` です。\\km\\per\\hour のように既知の単位で定義してください",
     ),
-    (
-        "files are not read within a display: write its text here, or the whole display there",
-        "数式の中ではファイルを読み込みません。内容をここに書くか、数式全体をそのファイルに移してください",
-    ),
     ("add it behind the argument", "引数の後に書いてください"),
     ("arguments of a kind that is not read", "この種の引数は読めません"),
     ("read are {a}", "読めるのは {a} です"),

@@ -156,12 +156,15 @@ pub(super) const PATTERNS: &[(&str, &str)] = &[
     // Derivatives and integrals
     ("a mean over {a}, which is no symbol", "{a} は記号でないため、平均をとれません"),
     ("integrals over one variable with several lower limits", "下限が複数ある一変数の積分は評価できません"),
-    ("only integrals along the motion are evaluated yet", "評価できるのは運動に沿った積分だけです"),
+    (
+        "only integrals between limits and along the motion are evaluated yet",
+        "評価できるのは定積分と運動に沿った積分だけです",
+    ),
     (
         "until then say what it comes to under `where` of the equations that rest on it, and here expect = \"undecided\"",
         "当面は、これに依る式の where に積分の値を書き、この式には expect = \"undecided\" と書いてください",
     ),
-    ("integrals over areas are not evaluated yet", "面積分はまだ評価できません"),
+    ("integrals along lines and over areas are not evaluated yet", "線積分と面積分はまだ評価できません"),
     ("this integral has no differential that depends on time", "この積分には、時間に依存する変数の微分がありません"),
     ("a gradient has three components", "勾配の成分は 3 つです"),
     ("the derivative of {shape} by {other} is not evaluated yet", "{shape}の{other}による微分はまだ評価できません"),

@@ -138,6 +138,11 @@ pub(super) const PATTERNS: &[(&str, &str)] = &[
         "この式で Kenzan 自身が異常終了しました。文書を添えて報告してください: {a}",
     ),
     // Why there is no exact verdict
+    (
+        "both sides are printed alike, so that it says nothing: has one of them lost something?",
+        "両辺が同じ形で印刷されていて何も述べていません。どちらかに抜けはありませんか",
+    ),
+    ("an integral", "積分"),
     ("a prime field has no order", "素体には大小がありません"),
     ("its components have the two branches of ±", "成分が ± の両方の符号を含みます"),
     ("{things} has no meaning in a prime field", "{things}は素体では意味をもちません"),
