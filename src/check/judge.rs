@@ -17,9 +17,10 @@ use super::options::Options;
 use super::order::{self, Measure};
 use super::remark;
 use super::stateless;
+use super::summary::kind;
 use super::trouble;
 use super::value;
-use super::verdict::{Correction, DimensionStatus, Judgement, LinkJudgement, LostBits, Strength, Verdict};
+use super::verdict::{Correction, DimensionStatus, Judgement, LinkJudgement, Strength, Verdict};
 
 /// Judges an equation of a book.
 pub fn judge(book: &Book, index: usize, options: &Options) -> Judgement {
@@ -384,7 +385,11 @@ fn link_verdict(source: &Source, clause: &Clause, scope: &Scope, known: &[Clause
         Err(obstacle) => obstructed(judgement, source, clause, &obstacle),
         Ok(claim) => match printed.filter(|p| !p.is_arithmetic()) {
             Some(printed) => value::judge(judgement, source, &printed, claim, options),
-            None => evaluate(judgement, claim, clause, source, options),
+            None => {
+                let restated = claim.restated;
+                let judged = by_relation(judgement, claim, clause, source, options);
+                LinkJudgement { restated: restated && judged.verdict == Verdict::Holds, ..judged }
+            }
         },
     }
 }
@@ -400,18 +405,6 @@ pub fn says_nothing(clause: &Clause) -> bool {
 }
 
 /// Evaluates a claim that is made by a link as `printed`.
-fn evaluate(
-    judgement: LinkJudgement,
-    claim: Claim,
-    printed: &Clause,
-    source: &Source,
-    options: &Options,
-) -> LinkJudgement {
-    let restated = claim.restated;
-    let judged = by_relation(judgement, claim, printed, source, options);
-    LinkJudgement { restated: restated && judged.verdict == Verdict::Holds, ..judged }
-}
-
 fn by_relation(
     judgement: LinkJudgement,
     claim: Claim,
@@ -464,10 +457,10 @@ fn obstructed(mut judgement: LinkJudgement, source: &Source, clause: &Clause, ob
     judgement
 }
 
-/// A message with the piece of LaTeX it is about.
 /// The most of a formula that is quoted in a reason, in bytes.
 const LONGEST_PIECE: usize = 120;
 
+/// A message with the piece of LaTeX it is about.
 fn place(latex: &str, message: &str, span: &std::ops::Range<usize>, help: Option<&str>) -> String {
     let piece = latex.get(span.clone()).unwrap_or_default().trim();
     let mut text = message.to_owned();
@@ -480,51 +473,4 @@ fn place(latex: &str, message: &str, span: &std::ops::Range<usize>, help: Option
         text.push_str(&format!(" ({help})"));
     }
     text
-}
-
-/// The kind of an equation: as annotated, or inferred.
-fn kind(book: &Book, index: usize) -> String {
-    let entry = &book.entries[index];
-    let Some(a) = entry.annotation() else { return "identity".into() };
-    if let Some(kind) = &a.kind {
-        return kind.value.clone();
-    }
-    let kind = if a.small.is_some() {
-        "approximation"
-    } else if !a.solves.is_empty() {
-        "solution"
-    } else if a.iff.is_some() {
-        "inequality"
-    } else if a.maps.is_some() {
-        "transformation"
-    } else if !entry.given(None).is_empty() || !entry.wheres(None).is_empty() {
-        "derived"
-    } else {
-        "identity"
-    };
-    kind.into()
-}
-
-impl Judgement {
-    /// Draws the equation's figures from its links.
-    fn summarise(&mut self) {
-        self.bits = self.links.iter().filter_map(|l| l.bits).min();
-        self.states = self.links.iter().map(|l| l.states).max().unwrap_or(0);
-        self.counterexample = self.links.iter().find_map(|l| l.counterexample.clone());
-        let decisive = self.links.iter().filter(|l| l.verdict == self.verdict);
-        self.strength = decisive.filter_map(|l| l.strength).max_by_key(|s| s.weakness());
-        let definition = self.links.iter().all(|l| l.verdict == Verdict::Definition) && !self.links.is_empty();
-        if definition && self.kind != "law" {
-            self.kind = "definition".into();
-        }
-        let lost: Vec<LostBits> = self.links.iter().filter_map(|l| l.lost_bits).collect();
-        if !lost.is_empty() {
-            let mean = lost.iter().map(|l| l.mean).sum::<f64>() / lost.len() as f64;
-            let worst = lost.iter().map(|l| l.worst).fold(0.0, f64::max);
-            self.lost_bits = Some(LostBits { mean: (10.0 * mean).round() / 10.0, worst });
-        }
-        if self.reason.is_none() {
-            self.reason = self.links.iter().find(|l| l.verdict == self.verdict).and_then(|l| l.reason.clone());
-        }
-    }
 }

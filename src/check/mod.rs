@@ -36,6 +36,7 @@ mod screen;
 mod shrink;
 mod stated;
 mod stateless;
+mod summary;
 mod system;
 mod trial;
 mod trouble;

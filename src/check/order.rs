@@ -201,8 +201,8 @@ mod tests {
     use std::path::Path;
 
     use crate::check::verdict::Verdict;
+    use crate::check::{Book, Options, judge};
     use crate::document;
-    use crate::verify::{Request, verify};
 
     #[test]
     fn the_residual_is_measured_by_the_sides_and_not_by_what_premises_make_of_them() {
@@ -219,8 +219,8 @@ range = { 'v' = [0.05, 0.25] }
 -->
 ";
         let verdict = |notes: &str| {
-            let report = verify(document::parse(Path::new("notes.md"), notes), &Request::default(), &|| ()).report;
-            report.equations[0].verdict
+            let book = Book::new(&document::parse(Path::new("notes.md"), notes));
+            judge(&book, 0, &Options::default()).verdict
         };
         assert_eq!(verdict(notes), Verdict::Asymptotic);
         assert_eq!(verdict(&notes.replace(r"\frac{m v^4}{c^2}", r"\frac{m v^4}{2 c^2}")), Verdict::Fails);

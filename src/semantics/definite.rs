@@ -354,14 +354,17 @@ mod tests {
             (r"\int_0^\pi \sin\theta \, d\theta", "2"),
             (r"\int_0^1 x dx \int_0^1 x^2 dx", r"\frac{1}{6}"),
             (r"2 \int_0^1 x dx \, a", "a"),
-            (r"\int_0^a \frac{dx}{\sqrt{a^2 - x^2}}", r"\frac{\pi}{2} + 10^{-13}"),
             // A quantity d beside the d of the differential.
             (r"\int_0^a d x \, dx", r"\frac{d a^2}{2}"),
             (r"\frac{\partial}{\partial a} \int_0^a e^{-a x^2} dx + \int_0^a x^2 e^{-a x^2} dx", r"e^{-a^3}"),
         ] {
             let [a, b] = both(integral, known);
-            assert!((a - b).abs() < 1e-7 * (1.0 + b.abs()), "{integral}: {a}, not {b}");
+            println!("{integral}: off by {:.1e}", (a - b).abs() / (1.0 + b.abs()));
+            assert!(equal(integral, known), "{integral}: {a}, not {b}");
         }
+        // Where the integrand is singular at the upper end, doubles lose half their digits in a² - x².
+        let [a, b] = both(r"\int_0^a \frac{dx}{\sqrt{a^2 - x^2}}", r"\frac{\pi}{2}");
+        assert!((a - b).abs() < f64::EPSILON.sqrt() * 10.0, "{a}, not {b}");
         assert!(!equal(r"\int_0^Q \frac{q}{C} \, dq", r"\frac{Q^2}{C}"));
         assert!(!equal(r"\int_0^\infty e^{-2t/\tau} dt", r"\tau"));
     }
